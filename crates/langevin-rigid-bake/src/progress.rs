@@ -1,0 +1,18 @@
+//! How long work tells how far it is, and how it is asked to stop.
+
+/// Receives the progress of long work and may cancel it.
+///
+/// Called from worker threads. `()` neither reports nor cancels.
+pub trait Progress: Sync {
+    /// `fraction` in [0, 1] of the named stage is done.
+    fn report(&self, stage: &str, fraction: f64) {
+        let _ = (stage, fraction);
+    }
+
+    /// Whether the work should stop at the next opportunity.
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+impl Progress for () {}

@@ -1,0 +1,3 @@
+//! Run time of Langevin Rigid.
+
+pub mod turbulence;
