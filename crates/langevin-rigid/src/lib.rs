@@ -1,3 +1,43 @@
-//! Run time of Langevin Rigid.
+//! Run time of Langevin Rigid: light bodies immersed in air or water, in real time.
+//!
+//! A baked [`Body`] (mass properties and added mass) in a [`Fluid`] becomes a [`Stepper`], which
+//! advances a [`State`] by the generalized Kirchhoff equations with generalized Langevin loads
+//! (H. Xie and K. Miyata, "Langevin Rigid: Animating Immersed Rigid Bodies in Real-time", 2014).
+//! A step allocates nothing, and its noise is a pure function of (seed, body, step): the same run
+//! has the same bits on any number of threads and on every platform.
+//!
+//! SI units throughout. The world is right-handed with +Y up; the body frame has its origin at the
+//! centre of mass; six-vectors have their linear part first; quaternions are `[x, y, z, w]`, body to
+//! world.
+//!
+//! What is where, in the order of a step's data flow: [`Body`] and [`Bake`] come in, [`Turbulence`]
+//! gives the Langevin coefficients, [`NoiseStream`] the normals, [`Stepper`] moves the [`State`],
+//! [`run`] repeats it to the ground.
 
+mod bake;
+mod body;
+mod fluid;
+mod kirchhoff;
+mod langevin;
+pub mod linalg;
+mod noise;
+mod published;
+mod run;
+mod runge_kutta;
+mod settings;
+mod state;
+mod stepper;
 pub mod turbulence;
+
+pub use bake::{Bake, BakeError};
+pub use body::{Body, BodyError, Surface, shift_added_mass};
+pub use fluid::{Fluid, GRAVITY};
+pub use noise::{NORMALS_PER_STEP, NoiseStream};
+pub use published::UnitSystem;
+pub use run::{Ending, Hull, StopAt, run};
+pub use settings::{Integrator, Model, Settings, UnknownName};
+pub use state::State;
+pub use stepper::{SetupError, StepError, Stepper, falling_reynolds, falling_speed};
+pub use turbulence::{
+    LangevinCoefficients, Turbulence, TurbulenceHistory, TurbulenceSource, kolmogorov_c0,
+};

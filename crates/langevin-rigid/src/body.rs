@@ -1,0 +1,155 @@
+//! The baked body: everything about a shape that the run time needs.
+
+use crate::linalg::{Mat3, Mat6, Vec3, cholesky, cross};
+
+/// A rigid body as the precomputation leaves it.
+///
+/// All vectors are in the body frame: its origin is the centre of mass, its axes are those of the
+/// mesh that the body was made from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// Mass m (kg).
+    pub mass: f64,
+    /// Inertia J0 about the centre of mass (kg m^2).
+    pub inertia: Mat3,
+    /// Volume V (m^3).
+    pub volume: f64,
+    /// Centre of buoyancy r: the volume centroid, from the centre of mass (m).
+    pub centre_of_buoyancy: Vec3,
+    /// Added mass per unit fluid density about the centre of mass: m^3, m^4 and m^5 in the blocks,
+    /// linear part first.
+    pub added_mass: Mat6,
+    /// Half the extents along the principal axes of the volume, descending (m).
+    pub half_extents: Vec3,
+    /// Characteristic thickness b of Eq. (1) (m).
+    pub thickness: f64,
+    /// Characteristic length d of Eq. (1) (m).
+    pub length: f64,
+    /// The body's surface.
+    pub surface: Surface,
+}
+
+/// The surface of a body with its potentials of unit motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Surface {
+    /// Vertex positions from the centre of mass (m); those of the given mesh first.
+    pub vertices: Vec<Vec3>,
+    /// Triangles of the given mesh.
+    pub triangles: Vec<[u32; 3]>,
+    /// Triangles of the mesh that the potentials were solved on: `triangles` or a subdivision.
+    pub panels: Vec<[u32; 3]>,
+    /// Exterior potentials of the six unit motions at each vertex, up to one constant each:
+    /// translation along x, y, z (m) and rotation about them through the volume centroid (m^2).
+    pub potentials: Vec<[f64; 6]>,
+}
+
+/// What makes a body impossible.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BodyError {
+    /// A quantity that must be positive and finite is not.
+    #[error("the body's {name} is {value}; it must be a positive number")]
+    NotPositive {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The inertia has no inverse or is not symmetric.
+    #[error(
+        "the body's inertia is not a symmetric positive definite matrix; check its units (kg m^2) and its rows"
+    )]
+    Inertia,
+    /// The added mass is not symmetric.
+    #[error("the body's added mass is not symmetric; bake the body again")]
+    AddedMass,
+}
+
+impl Body {
+    /// Checks what every model relies on.
+    pub fn check(&self) -> Result<(), BodyError> {
+        for (name, value) in [
+            ("mass", self.mass),
+            ("volume", self.volume),
+            ("thickness", self.thickness),
+            ("length", self.length),
+            ("largest half-extent", self.half_extents[0]),
+            ("second half-extent", self.half_extents[1]),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(BodyError::NotPositive { name, value });
+            }
+        }
+        if !symmetric(&self.inertia) || cholesky(&self.inertia).is_none() {
+            return Err(BodyError::Inertia);
+        }
+        if !symmetric(&self.added_mass) {
+            return Err(BodyError::AddedMass);
+        }
+        Ok(())
+    }
+
+    /// Length l of Eq. (18): the second-largest half-extent (m).
+    pub fn turbulence_length(&self) -> f64 {
+        self.half_extents[1]
+    }
+
+    /// Length L that turns the diffusion coefficient into an angular one: the mean of the two
+    /// largest half-extents (m).
+    pub fn rotation_length(&self) -> f64 {
+        0.5 * (self.half_extents[0] + self.half_extents[1])
+    }
+
+    /// Mean density (kg/m^3).
+    pub fn density(&self) -> f64 {
+        self.mass / self.volume
+    }
+
+    /// The total tensor T = diag(m, J0) + rho_f A (kg, kg m, kg m^2), linear part first.
+    pub fn total_mass(&self, fluid_density: f64) -> Mat6 {
+        let mut total = self.added_mass.map(|row| row.map(|a| fluid_density * a));
+        for i in 0..3 {
+            total[i][i] += self.mass;
+            for j in 0..3 {
+                total[3 + i][3 + j] += self.inertia[i][j];
+            }
+        }
+        total
+    }
+}
+
+fn symmetric<const N: usize>(m: &[[f64; N]; N]) -> bool {
+    let largest = m.iter().flatten().fold(0.0f64, |a, x| a.max(x.abs()));
+    largest.is_finite()
+        && (0..N).all(|i| (0..i).all(|j| (m[i][j] - m[j][i]).abs() <= 1e-9 * largest))
+}
+
+/// Added mass about another point, by the 6x6 adjoint.
+///
+/// `offset` leads from the old reference point to the new one (m). With phi the potentials of unit
+/// motion, a rotation about the new point is one about the old and a translation by
+/// `offset x axis`.
+///
+/// ```
+/// let sphere = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j && i < 3)));
+/// let shifted = langevin_rigid::shift_added_mass(&sphere, [2.0, 0.0, 0.0]);
+/// assert_eq!(shifted[5][5], 4.0); // unit mass at two metres
+/// ```
+pub fn shift_added_mass(tensor: &Mat6, offset: Vec3) -> Mat6 {
+    let mut motion = [[0.0; 6]; 6];
+    for i in 0..3 {
+        let axis: Vec3 = std::array::from_fn(|k| f64::from(k == i));
+        let carried = cross(offset, axis);
+        motion[i][i] = 1.0;
+        motion[3 + i][3 + i] = 1.0;
+        for k in 0..3 {
+            motion[k][3 + i] = carried[k];
+        }
+    }
+    let column =
+        |t: &Mat6, i: usize, j: usize| -> f64 { (0..6).map(|k| t[i][k] * motion[k][j]).sum() };
+    let right: Mat6 = std::array::from_fn(|i| std::array::from_fn(|j| column(tensor, i, j)));
+    let full: Mat6 = std::array::from_fn(|i| {
+        std::array::from_fn(|j| (0..6).map(|k| motion[k][i] * right[k][j]).sum())
+    });
+    std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (full[i][j] + full[j][i])))
+}

@@ -1,0 +1,194 @@
+//! What a run may choose, by the names that scenes and the command line use.
+
+use crate::fluid::GRAVITY;
+use crate::linalg::Vec3;
+use crate::published::UnitSystem;
+use crate::turbulence::TurbulenceSource;
+
+/// How the equations of motion are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Model {
+    /// Kirchhoff's equations with Langevin loads through the added mass: dimensionally sound.
+    #[default]
+    Consistent,
+    /// Eqs. (11) and (12) of Xie & Miyata (2014) to the letter, in the named system of units.
+    Published(UnitSystem),
+    /// No turbulence loads (Weissmann & Pinkall 2012), the paper's Fig. 5(a).
+    Kirchhoff,
+}
+
+/// How a step is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Integrator {
+    /// Strang splitting: half a step of the linear Langevin part solved exactly, one step of
+    /// Kirchhoff's part by a Lie-group Runge-Kutta scheme, half a step of the Langevin part.
+    #[default]
+    Strang,
+    /// The paper's scheme: Runge-Kutta for everything deterministic, Euler-Maruyama for the noise.
+    RungeKutta4,
+}
+
+/// Choices of a run; the default is what a new user should have.
+///
+/// ```
+/// use langevin_rigid::{Model, Settings};
+/// let settings = Settings { model: "kirchhoff".parse()?, ..Settings::default() };
+/// assert_eq!(settings.model, Model::Kirchhoff);
+/// # Ok::<(), langevin_rigid::UnknownName>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// How the equations of motion are read.
+    pub model: Model,
+    /// How a step is taken; the published equations know only [`Integrator::RungeKutta4`].
+    pub integrator: Integrator,
+    /// Where the turbulence comes from.
+    pub turbulence: TurbulenceSource,
+    /// Gravity, world frame (m/s^2).
+    pub gravity: Vec3,
+    /// Length l of Eq. (18) for body-driven turbulence (m); the body's own if none.
+    pub turbulence_length: Option<f64>,
+    /// Reynolds number of C0(Re), Eq. (10); that of Eq. (1) if none.
+    pub reynolds: Option<f64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            model: Model::default(),
+            integrator: Integrator::default(),
+            turbulence: TurbulenceSource::default(),
+            gravity: GRAVITY,
+            turbulence_length: None,
+            reynolds: None,
+        }
+    }
+}
+
+/// A name that no choice has.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{name}` is no {what}; choose one of {known}")]
+pub struct UnknownName {
+    /// What was being named.
+    pub what: &'static str,
+    /// The name as given.
+    pub name: String,
+    /// The names there are.
+    pub known: &'static str,
+}
+
+impl std::str::FromStr for Model {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        match name {
+            "consistent" => Ok(Self::Consistent),
+            "published" => Ok(Self::Published(UnitSystem::Cgs)),
+            "published-si" => Ok(Self::Published(UnitSystem::Si)),
+            "kirchhoff" => Ok(Self::Kirchhoff),
+            _ => Err(UnknownName {
+                what: "model",
+                name: name.into(),
+                known: "consistent, published, published-si, kirchhoff",
+            }),
+        }
+    }
+}
+
+impl std::fmt::Display for Model {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Consistent => "consistent",
+            Self::Published(UnitSystem::Cgs) => "published",
+            Self::Published(UnitSystem::Si) => "published-si",
+            Self::Kirchhoff => "kirchhoff",
+        })
+    }
+}
+
+impl std::str::FromStr for Integrator {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        match name {
+            "strang" => Ok(Self::Strang),
+            "rk4" => Ok(Self::RungeKutta4),
+            _ => Err(UnknownName {
+                what: "integrator",
+                name: name.into(),
+                known: "strang, rk4",
+            }),
+        }
+    }
+}
+
+impl std::fmt::Display for Integrator {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Strang => "strang",
+            Self::RungeKutta4 => "rk4",
+        })
+    }
+}
+
+impl std::str::FromStr for TurbulenceSource {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        let unknown = || UnknownName {
+            what: "turbulence source",
+            name: name.into(),
+            known: "body-driven, wake-age=LENGTHS (body-driven, sampled so many lengths l behind), history",
+        };
+        match name {
+            "body-driven" => Ok(Self::BodyDriven { wake_age: 0.0 }),
+            "history" => Ok(Self::History),
+            _ => name
+                .strip_prefix("wake-age=")
+                .and_then(|age| age.parse::<f64>().ok())
+                .filter(|age| age.is_finite() && *age >= 0.0)
+                .map(|wake_age| Self::BodyDriven { wake_age })
+                .ok_or_else(unknown),
+        }
+    }
+}
+
+impl std::fmt::Display for TurbulenceSource {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::BodyDriven { wake_age: 0.0 } => f.write_str("body-driven"),
+            Self::BodyDriven { wake_age } => write!(f, "wake-age={wake_age}"),
+            Self::History => f.write_str("history"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_back_as_written() {
+        for name in ["consistent", "published", "published-si", "kirchhoff"] {
+            assert_eq!(name.parse::<Model>().unwrap().to_string(), name);
+        }
+        for name in ["strang", "rk4"] {
+            assert_eq!(name.parse::<Integrator>().unwrap().to_string(), name);
+        }
+        for name in ["body-driven", "history", "wake-age=16"] {
+            assert_eq!(name.parse::<TurbulenceSource>().unwrap().to_string(), name);
+        }
+    }
+
+    #[test]
+    fn unknown_names_list_the_known_ones() {
+        let message = "euler".parse::<Integrator>().unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "`euler` is no integrator; choose one of strang, rk4"
+        );
+        for bad in ["wake-age=-1", "wake-age=NaN", "wake-age=x", "wake-age"] {
+            assert!(bad.parse::<TurbulenceSource>().is_err());
+        }
+    }
+}

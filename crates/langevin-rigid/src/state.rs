@@ -1,0 +1,63 @@
+//! The state of one body.
+
+use crate::linalg::{Quat, Vec3, rotate, rotate_back};
+
+/// Pose and velocities of a body at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State {
+    /// Time since release (s).
+    pub time: f64,
+    /// Steps taken since release; selects the noise of the next one.
+    pub step: u64,
+    /// Position x of the centre of mass, world frame (m).
+    pub position: Vec3,
+    /// Orientation as a unit quaternion `[x, y, z, w]`, body to world.
+    pub orientation: Quat,
+    /// Velocity v of the centre of mass, body frame (m/s).
+    pub velocity: Vec3,
+    /// Angular velocity omega, body frame (rad/s).
+    pub angular_velocity: Vec3,
+}
+
+impl Default for State {
+    /// At rest at the origin, body axes along the world's.
+    fn default() -> Self {
+        Self {
+            time: 0.0,
+            step: 0,
+            position: [0.0; 3],
+            orientation: [0.0, 0.0, 0.0, 1.0],
+            velocity: [0.0; 3],
+            angular_velocity: [0.0; 3],
+        }
+    }
+}
+
+impl State {
+    /// Velocity of the centre of mass, world frame (m/s).
+    pub fn world_velocity(&self) -> Vec3 {
+        rotate(self.orientation, self.velocity)
+    }
+
+    /// Angular velocity, world frame (rad/s).
+    pub fn world_angular_velocity(&self) -> Vec3 {
+        rotate(self.orientation, self.angular_velocity)
+    }
+
+    /// Sets both velocities from the world frame (m/s, rad/s).
+    pub fn set_world_velocities(&mut self, velocity: Vec3, angular_velocity: Vec3) {
+        self.velocity = rotate_back(self.orientation, velocity);
+        self.angular_velocity = rotate_back(self.orientation, angular_velocity);
+    }
+
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let parts = [self.position, self.velocity, self.angular_velocity];
+        self.time.is_finite()
+            && parts
+                .iter()
+                .flatten()
+                .chain(&self.orientation)
+                .all(|x| x.is_finite())
+    }
+}

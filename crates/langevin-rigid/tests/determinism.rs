@@ -1,0 +1,98 @@
+//! The same seed gives the same bits: from a checkpoint, beside other bodies on other threads, and
+//! against a pinned hash that every platform must meet. A hash that changes means that trajectories
+//! of users change: say so in the changelog.
+
+mod common;
+
+use common::{chiral, frozen};
+use langevin_rigid::{Fluid, Integrator, NoiseStream, Settings, State, Stepper, TurbulenceSource};
+
+const WATER: Fluid = Fluid {
+    density: 1000.0,
+    viscosity: 1e-6,
+    velocity: [0.05, 0.0, 0.1],
+};
+
+fn stepper(integrator: Integrator, turbulence: TurbulenceSource) -> Stepper {
+    let settings = Settings {
+        integrator,
+        turbulence,
+        ..Settings::default()
+    };
+    Stepper::new(&chiral(), &WATER, Some(&frozen(0.02, 0.4)), &settings).unwrap()
+}
+
+fn advance(stepper: &Stepper, state: &mut State, noise: NoiseStream, steps: usize) {
+    for _ in 0..steps {
+        stepper.step(state, 2e-3, &noise).unwrap();
+    }
+}
+
+fn hash(state: &State) -> u64 {
+    let parts = [state.position, state.velocity, state.angular_velocity];
+    parts
+        .iter()
+        .flatten()
+        .chain(&state.orientation)
+        .fold(0xCBF2_9CE4_8422_2325, |hash, x| {
+            (hash ^ x.to_bits()).wrapping_mul(0x0000_0100_0000_01B3)
+        })
+}
+
+#[test]
+fn a_checkpoint_resumes_to_the_same_bits() {
+    let stepper = stepper(Integrator::Strang, TurbulenceSource::default());
+    let noise = NoiseStream { seed: 42, body: 0 };
+    let mut through = State::default();
+    advance(&stepper, &mut through, noise, 300);
+    let mut first = State::default();
+    advance(&stepper, &mut first, noise, 120);
+    let mut resumed = first;
+    advance(&stepper, &mut resumed, noise, 180);
+    assert_eq!(through, resumed);
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let stepper = stepper(Integrator::Strang, TurbulenceSource::default());
+    let alone: Vec<State> = (0..8)
+        .map(|body| {
+            let mut state = State::default();
+            advance(&stepper, &mut state, NoiseStream { seed: 1, body }, 200);
+            state
+        })
+        .collect();
+    let mut beside = vec![State::default(); 8];
+    std::thread::scope(|scope| {
+        for (body, state) in beside.iter_mut().enumerate() {
+            let stepper = &stepper;
+            let noise = NoiseStream {
+                seed: 1,
+                body: body as u32,
+            };
+            scope.spawn(move || advance(stepper, state, noise, 200));
+        }
+    });
+    assert_eq!(alone, beside);
+}
+
+#[test]
+fn golden_runs() {
+    let wake = TurbulenceSource::BodyDriven { wake_age: 16.0 };
+    let runs = [
+        (Integrator::Strang, TurbulenceSource::default(), 0x8380_38EE_FB3A_FBF8),
+        (Integrator::Strang, wake, 0x565A_BFAF_675C_3DB4),
+        (Integrator::Strang, TurbulenceSource::History, 0x6DA6_E9E8_9AC6_A4EA),
+        (Integrator::RungeKutta4, TurbulenceSource::default(), 0xE0AA_BD95_C0D7_B3B3),
+    ];
+    for (integrator, turbulence, golden) in runs {
+        let mut state = State::default();
+        advance(
+            &stepper(integrator, turbulence),
+            &mut state,
+            NoiseStream { seed: 7, body: 1 },
+            500,
+        );
+        assert_eq!(hash(&state), golden, "{integrator} {turbulence}");
+    }
+}
