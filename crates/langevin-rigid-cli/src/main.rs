@@ -1,1 +1,54 @@
-fn main() {}
+//! The `langevin-rigid` command.
+
+mod added_mass;
+mod arguments;
+mod bake;
+mod bars;
+mod cache;
+mod scenes;
+mod simulate;
+mod summary;
+mod turbulence;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+use bars::Bars;
+
+/// Exit code of a run that was interrupted, as shells have it for Ctrl-C.
+const INTERRUPTED: u8 = 130;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let bars = Bars::new();
+    let done = match &arguments.command {
+        Command::Simulate(options) => simulate::simulate(options, &bars),
+        Command::AddedMass(options) => added_mass::added_mass(options, &bars),
+        Command::Turbulence(options) => turbulence::turbulence(options, &bars),
+        Command::Bake(options) => bake::bake(options, &bars),
+        Command::Scenes => scenes::scenes(),
+    };
+    bars.clear();
+    match done {
+        Ok(()) if bars.interrupted() => ExitCode::from(INTERRUPTED),
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(_) if bars.interrupted() => {
+            eprintln!("interrupted before there was a result; nothing was written");
+            ExitCode::from(INTERRUPTED)
+        }
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Whoever read our output has seen enough.
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error
+        .downcast_ref::<std::io::Error>()
+        .is_some_and(|e| e.kind() == std::io::ErrorKind::BrokenPipe)
+}

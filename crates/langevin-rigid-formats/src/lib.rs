@@ -1,4 +1,9 @@
-//! Files of Langevin Rigid: mesh readers, scenes, bakes, trajectories, pictures.
+//! Files of Langevin Rigid: what comes in (meshes, scenes) and what goes out (bakes, trajectories,
+//! pictures).
 
+pub mod baking;
+pub mod files;
 pub mod mesh;
 pub mod picture;
+pub mod scene;
+pub mod trajectory;

@@ -2,8 +2,8 @@
 //!
 //! Layout, little-endian: the eight bytes of `MAGIC`, the format's version (u32), the length of the
 //! payload (u64), the fingerprint of what was baked (32 bytes), the payload, and the 64-bit FNV-1a
-//! hash of all before it. The payload is [`Body`] then an optional [`TurbulenceHistory`], field by
-//! field; lists carry their length (u32) before them.
+//! hash of all before it. The payload is [`Body`], an optional [`TurbulenceHistory`], the error
+//! estimate and the warnings, field by field; lists carry their length (u32) before them.
 
 use crate::body::{Body, BodyError, Surface};
 use crate::turbulence::TurbulenceHistory;
@@ -21,7 +21,9 @@ const CHECKSUM: usize = 8;
 /// # let body = Body { mass: 1.0, inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 /// #     volume: 1.0, centre_of_buoyancy: [0.0; 3], added_mass: [[0.0; 6]; 6],
 /// #     half_extents: [1.0; 3], thickness: 1.0, length: 1.0, surface: Default::default() };
-/// let bake = Bake { body, history: None, fingerprint: [0; 32] };
+/// let bake = Bake {
+///     body, history: None, error_estimate: 1e-4, warnings: vec![], fingerprint: [0; 32],
+/// };
 /// let bytes = bake.to_bytes();
 /// assert_eq!(Bake::from_bytes(&bytes)?, bake);
 /// # Ok::<(), langevin_rigid::BakeError>(())
@@ -32,6 +34,10 @@ pub struct Bake {
     pub body: Body,
     /// Turbulence at the body, for the sources that sample a history.
     pub history: Option<TurbulenceHistory>,
+    /// Estimated relative error of the added mass.
+    pub error_estimate: f64,
+    /// What the precomputation warned about, a sentence each.
+    pub warnings: Vec<String>,
     /// Hash of everything that this bake was made from; a bake with the same one need not be made
     /// again.
     pub fingerprint: [u8; 32],
@@ -78,6 +84,8 @@ impl Bake {
         let mut payload = Writer::default();
         payload.body(&self.body);
         payload.history(self.history.as_ref());
+        payload.numbers(&[self.error_estimate]);
+        payload.texts(&self.warnings);
         let mut bytes = Vec::with_capacity(HEADER + payload.0.len() + CHECKSUM);
         bytes.extend_from_slice(&MAGIC);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
@@ -97,6 +105,8 @@ impl Bake {
         let mut reader = Reader(&bytes[HEADER..bytes.len() - CHECKSUM]);
         let body = reader.body()?;
         let history = reader.history()?;
+        let error_estimate = reader.number()?;
+        let warnings = reader.texts()?;
         if !reader.0.is_empty() {
             return Err(BakeError::Contents("bytes are left over"));
         }
@@ -105,6 +115,8 @@ impl Bake {
         Ok(Self {
             body,
             history,
+            error_estimate,
+            warnings,
             fingerprint,
         })
     }
@@ -186,6 +198,14 @@ impl Writer {
         self.count(triangles.len());
         for v in triangles.as_flattened() {
             self.0.extend_from_slice(&v.to_le_bytes());
+        }
+    }
+
+    fn texts(&mut self, texts: &[String]) {
+        self.count(texts.len());
+        for text in texts {
+            self.count(text.len());
+            self.0.extend_from_slice(text.as_bytes());
         }
     }
 
@@ -272,6 +292,13 @@ impl Reader<'_> {
         self.items(12, |r| Ok([r.u32()?, r.u32()?, r.u32()?]))
     }
 
+    fn texts(&mut self) -> Result<Vec<String>, BakeError> {
+        self.items(4, |r| {
+            let bytes = r.items(1, |r| Ok(r.take::<1>()?[0]))?;
+            String::from_utf8(bytes).map_err(|_| BakeError::Contents("a warning is no text"))
+        })
+    }
+
     fn body(&mut self) -> Result<Body, BakeError> {
         let [mass, volume, thickness, length] = self.numbers()?;
         Ok(Body {
@@ -348,6 +375,8 @@ mod tests {
         Bake {
             body,
             history: Some(history),
+            error_estimate: 2e-3,
+            warnings: vec!["thin".into(), String::new()],
             fingerprint: [7; 32],
         }
     }

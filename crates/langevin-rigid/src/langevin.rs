@@ -265,7 +265,7 @@ mod tests {
         let mut covariance: Mat6 =
             std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j) * 2.0 / 3.0 * k0));
         for n in 0..1000 {
-            covariance = propagate(&particle, &covariance, n as f64 * h, h);
+            covariance = propagate(&particle, &covariance, f64::from(n) * h, h);
         }
         let wanted = 2.0 / 3.0 * k(1.0);
         assert!(

@@ -37,7 +37,7 @@ pub use published::UnitSystem;
 pub use run::{Ending, Hull, StopAt, run};
 pub use settings::{Integrator, Model, Settings, UnknownName};
 pub use state::State;
-pub use stepper::{SetupError, StepError, Stepper, falling_reynolds, falling_speed};
+pub use stepper::{SPEED_LIMIT, SetupError, StepError, Stepper, falling_reynolds, falling_speed};
 pub use turbulence::{
     LangevinCoefficients, Turbulence, TurbulenceHistory, TurbulenceSource, kolmogorov_c0,
 };

@@ -12,6 +12,9 @@ use crate::settings::{Integrator, Model, Settings};
 use crate::state::State;
 use crate::turbulence::{PreparedSource, TurbulenceHistory, TurbulenceSource, kolmogorov_c0};
 
+/// Speed (m/s) and spin (rad/s) beyond which a run has diverged: no light body in a fluid comes near.
+pub const SPEED_LIMIT: f64 = 1e6;
+
 /// A body in a fluid under a model, made ready to step.
 ///
 /// Holds everything that stays the same from step to step; the state is the caller's. A step
@@ -89,9 +92,13 @@ pub enum SetupError {
 /// Why a step was not taken.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
-    /// The step would have left the state infinite or not a number.
-    #[error("the state stopped being finite at t = {time} s (step {step}, time step {time_step} s, model `{model}`); use a smaller time step{}", published_hint(.model))]
-    NotFinite {
+    /// The step would have left the state infinite, not a number, or faster than
+    /// [`SPEED_LIMIT`].
+    #[error(
+        "the state diverged at t = {time} s (step {step}, time step {time_step} s, model `{model}`): it is no longer finite, or faster than {SPEED_LIMIT:e} m/s; use a smaller time step{}",
+        published_hint(.model)
+    )]
+    Diverged {
         /// Time at the start of the step (s).
         time: f64,
         /// Number of the step.
@@ -138,7 +145,7 @@ impl Stepper {
     /// Advances `state` by `dt` (s) with the noise of its step number.
     ///
     /// # Errors
-    /// [`StepError::NotFinite`], with `state` left as it was before the step.
+    /// [`StepError::Diverged`], with `state` left as it was before the step.
     pub fn step(&self, state: &mut State, dt: f64, noise: &NoiseStream) -> Result<(), StepError> {
         let mut motion = self.relative_to_fluid(state);
         match &self.scheme {
@@ -159,8 +166,8 @@ impl Stepper {
             }
         }
         let next = self.in_the_world(&motion, state, dt);
-        if !next.is_finite() {
-            return Err(StepError::NotFinite {
+        if !next.is_finite() || fastest(&next) > SPEED_LIMIT {
+            return Err(StepError::Diverged {
                 time: state.time,
                 step: state.step,
                 time_step: dt,
@@ -352,6 +359,10 @@ fn halves(normals: &[f64; 12]) -> ([f64; 6], [f64; 6]) {
         std::array::from_fn(|i| normals[i]),
         std::array::from_fn(|i| normals[6 + i]),
     )
+}
+
+fn fastest(state: &State) -> f64 {
+    norm(state.velocity).max(norm(state.angular_velocity))
 }
 
 fn accumulate(sum: &mut Vec6, term: &Vec6) {

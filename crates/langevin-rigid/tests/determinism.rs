@@ -1,6 +1,7 @@
 //! The same seed gives the same bits: from a checkpoint, beside other bodies on other threads, and
 //! against a pinned hash that every platform must meet. A hash that changes means that trajectories
 //! of users change: say so in the changelog.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod common;
 
@@ -80,10 +81,22 @@ fn threads_do_not_change_a_bit() {
 fn golden_runs() {
     let wake = TurbulenceSource::BodyDriven { wake_age: 16.0 };
     let runs = [
-        (Integrator::Strang, TurbulenceSource::default(), 0x8380_38EE_FB3A_FBF8),
+        (
+            Integrator::Strang,
+            TurbulenceSource::default(),
+            0x8380_38EE_FB3A_FBF8,
+        ),
         (Integrator::Strang, wake, 0x565A_BFAF_675C_3DB4),
-        (Integrator::Strang, TurbulenceSource::History, 0x6DA6_E9E8_9AC6_A4EA),
-        (Integrator::RungeKutta4, TurbulenceSource::default(), 0xE0AA_BD95_C0D7_B3B3),
+        (
+            Integrator::Strang,
+            TurbulenceSource::History,
+            0x6DA6_E9E8_9AC6_A4EA,
+        ),
+        (
+            Integrator::RungeKutta4,
+            TurbulenceSource::default(),
+            0xE0AA_BD95_C0D7_B3B3,
+        ),
     ];
     for (integrator, turbulence, golden) in runs {
         let mut state = State::default();

@@ -1,0 +1,161 @@
+//! The command line: its words are a contract with scripts.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use langevin_rigid::{Model, TurbulenceSource};
+use langevin_rigid_formats::mesh::LengthUnit;
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  1    the input or the run failed; what had been computed is kept
+  2    the command line was not understood
+  130  interrupted (Ctrl-C); what had been computed is kept
+
+Bakes are kept in the platform's cache folder, or in LANGEVIN_RIGID_CACHE if that is set.";
+
+/// Light bodies immersed in air or water: from a mesh and a fluid to a trajectory.
+#[derive(Parser)]
+#[command(version, after_help = EXIT_CODES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    Simulate(Simulate),
+    AddedMass(AddedMass),
+    Turbulence(Turbulence),
+    Bake(Bake),
+    /// List the built-in scenes.
+    Scenes,
+}
+
+/// Run a scene and write its trajectory, a summary and a picture.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid simulate paper-75
+  langevin-rigid simulate paper-75 --seed 7 --out drop7
+  langevin-rigid simulate my-scene.toml --duration 3 --json
+  langevin-rigid simulate ellipsoid-water --model kirchhoff
+
+Writes into DIR: trajectory.csv (world frame; metres, seconds, radians), trajectory.png,
+summary.json and scene.toml, the scene with every choice spelled out.")]
+pub(crate) struct Simulate {
+    /// A built-in scene (see `langevin-rigid scenes`) or a scene file.
+    pub(crate) scene: String,
+    /// Folder for the results [default: out/SCENE].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Seed of the noise.
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// End after this time (s) at the latest.
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub(crate) duration: Option<f64>,
+    /// Time step (s).
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub(crate) dt: Option<f64>,
+    /// Equations of motion: consistent, published, published-si or kirchhoff.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) model: Option<Model>,
+    /// Source of turbulence: body-driven, wake-age=LENGTHS or history.
+    #[arg(long, value_name = "SOURCE")]
+    pub(crate) turbulence: Option<TurbulenceSource>,
+    /// Print the summary as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Compute the added-mass tensor of a mesh.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid added-mass hull.stl --unit mm
+  langevin-rigid added-mass leaf.obj --unit cm --thickness 0.0002 --fluid-density 1.2
+  langevin-rigid added-mass hull.glb --about origin --format json
+
+The tensor is 6 x 6, linear part first, axes of the mesh, in SI (kg, kg m, kg m^2).
+Reads OBJ, STL, PLY, glTF and GLB.")]
+pub(crate) struct AddedMass {
+    /// The mesh file.
+    pub(crate) mesh: PathBuf,
+    /// Unit of its coordinates.
+    #[arg(long, value_name = "UNIT", default_value = "m")]
+    pub(crate) unit: LengthUnit,
+    /// Thicken an open sheet to this thickness (m).
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    pub(crate) thickness: Option<f64>,
+    /// Density of the fluid (kg/m^3).
+    #[arg(long, value_name = "RHO", default_value = "1000", value_parser = positive)]
+    pub(crate) fluid_density: f64,
+    /// Reference point of the tensor: the centre of mass of the homogeneous body, or the origin of
+    /// the mesh's coordinates.
+    #[arg(long, value_name = "POINT", default_value = "com")]
+    pub(crate) about: About,
+    /// How to print the result.
+    #[arg(long, value_name = "FORMAT", default_value = "table")]
+    pub(crate) format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum About {
+    Com,
+    Origin,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    Table,
+    Json,
+}
+
+/// Compute the turbulence history of a scene as CSV: t,k,epsilon,chi in SI.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid turbulence paper-75
+  langevin-rigid turbulence paper-75 --out history.csv")]
+pub(crate) struct Turbulence {
+    /// A built-in scene or a scene file.
+    pub(crate) scene: String,
+    /// File to write instead of printing.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// Precompute a scene's body and turbulence into a file that the run time loads by itself.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid bake paper-75 --out sheet.lrbake
+
+In a program: langevin_rigid::Bake::from_bytes(&std::fs::read(\"sheet.lrbake\")?)")]
+pub(crate) struct Bake {
+    /// A built-in scene or a scene file.
+    pub(crate) scene: String,
+    /// File to write [default: SCENE.lrbake].
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("it must be a positive number".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Arguments::command().debug_assert();
+    }
+}

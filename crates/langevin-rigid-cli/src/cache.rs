@@ -1,0 +1,27 @@
+//! Where bakes are kept.
+
+use std::path::PathBuf;
+
+use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_formats::baking::{Baked, SceneBakeError, bake_scene};
+use langevin_rigid_formats::scene::Scene;
+
+const VARIABLE: &str = "LANGEVIN_RIGID_CACHE";
+
+fn folder() -> Option<PathBuf> {
+    let named = std::env::var_os(VARIABLE)
+        .filter(|v| !v.is_empty())
+        .map(PathBuf::from);
+    named.or_else(|| Some(dirs::cache_dir()?.join("langevin-rigid")))
+}
+
+/// The scene's bake, from the cache if it is there.
+pub(crate) fn bake(scene: &Scene, progress: &dyn Progress) -> Result<Baked, SceneBakeError> {
+    let baked = bake_scene(scene, folder().as_deref(), progress)?;
+    if let Some(trouble) = &baked.cache_trouble {
+        eprintln!(
+            "warning: {trouble}; the bake was not kept (set {VARIABLE} to a writable folder)"
+        );
+    }
+    Ok(baked)
+}
