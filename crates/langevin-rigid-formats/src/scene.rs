@@ -1,0 +1,436 @@
+//! Scene files: what to simulate, as TOML in SI units and degrees.
+//!
+//! [`Scene::parse`] reads and checks one; what is wrong comes back with its line and column.
+//! [`Scene::to_toml`] writes the resolved scene, which reads back as the same scene.
+//! [`find`] opens a built-in scene by name or a file by path; [`BUILT_IN`] is their one registry.
+
+mod place;
+mod raw;
+mod registry;
+mod shape;
+
+use std::path::PathBuf;
+
+use langevin_rigid::linalg::quat_from_rotation_vector;
+use langevin_rigid::{Fluid, Integrator, Model, Settings, State, StopAt};
+use langevin_rigid_bake::body::BodySpec;
+use langevin_rigid_bake::shapes::Shape;
+use langevin_rigid_bake::turbulence::{FlowOptions, Sampling};
+use serde_spanned::Spanned;
+
+use crate::mesh::LengthUnit;
+use place::Document;
+pub use place::SceneError;
+use raw::{Given, RawFluid, RawPicture, RawRelease, RawRun, RawScene, RawTurbulence, given};
+pub use registry::{BUILT_IN, BuiltIn, FindError, find};
+
+/// A scene, checked and complete.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Its name: that of a built-in scene, or the file's without ending.
+    pub name: String,
+    /// What it shows, in a line.
+    pub description: String,
+    /// The fluid.
+    pub fluid: Fluid,
+    /// The body.
+    pub body: BodySource,
+    /// Pose and velocities at release.
+    pub release: State,
+    /// Model, integrator, turbulence source and gravity.
+    pub settings: Settings,
+    /// Time step (s).
+    pub time_step: f64,
+    /// When the run ends.
+    pub stop: StopAt,
+    /// Seed of the noise.
+    pub seed: u64,
+    /// The grid of the turbulence history.
+    pub grid: Grid,
+    /// Time between two drawings of the body in a picture (s); the picture's choice if none.
+    pub picture_interval: Option<f64>,
+}
+
+/// Where the body's surface and mass come from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodySource {
+    /// The surface.
+    pub geometry: Geometry,
+    /// Mass and characteristic sizes.
+    pub spec: BodySpec,
+}
+
+/// A body's surface.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Geometry {
+    /// A parametric body.
+    Shape {
+        /// Its shape.
+        shape: Shape,
+        /// Wished number of triangles.
+        triangles: usize,
+    },
+    /// A mesh file.
+    Mesh {
+        /// Path; relative ones start from the scene's folder.
+        path: PathBuf,
+        /// Unit of its coordinates.
+        unit: LengthUnit,
+        /// Thickness that an open sheet is given (m).
+        thickness: Option<f64>,
+    },
+}
+
+/// The grid that the turbulence history is computed on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Cells along x, y, z; the stream runs along y.
+    pub cells: [usize; 3],
+    /// Cell size, which is the length l of the history (m); the body's own length if none.
+    pub cell: Option<f64>,
+    /// Inflow speed (m/s); the larger of U0, Eq. (1), and the release speed if none.
+    pub inflow_speed: Option<f64>,
+    /// Time step (s); the flow solver's choice if none.
+    pub time_step: Option<f64>,
+    /// Length of the history (s); the flow solver's choice if none.
+    pub duration: Option<f64>,
+    /// Where the turbulence is sampled.
+    pub sampling: Sampling,
+}
+
+impl Default for Grid {
+    /// The grid of the paper's Fig. 2.
+    fn default() -> Self {
+        Self {
+            cells: FlowOptions::PAPER_CELLS,
+            cell: None,
+            inflow_speed: None,
+            time_step: None,
+            duration: None,
+            sampling: Sampling::Fixed,
+        }
+    }
+}
+
+impl Scene {
+    /// Reads a scene from the text of a TOML file.
+    ///
+    /// ```
+    /// use langevin_rigid_formats::scene::Scene;
+    /// let text = r#"
+    ///     fluid.preset = "water"
+    ///     run = { time_step = 0.002, duration = 1.0 }
+    ///     [body]
+    ///     shape = "ellipsoid"
+    ///     semi_axes = [0.01, 0.02, 0.04]
+    ///     density = -1100.0
+    /// "#;
+    /// let error = Scene::parse("ball", "ball.toml", text).unwrap_err();
+    /// assert_eq!((error.line, error.column), (7, 15));
+    /// ```
+    ///
+    /// # Errors
+    /// [`SceneError`] with line and column: syntax, unknown keys, missing or impossible values.
+    pub fn parse(name: &str, file: &str, text: &str) -> Result<Self, SceneError> {
+        let doc = Document { file, text };
+        let raw: RawScene = toml::from_str(text)
+            .map_err(|e| doc.error(e.span().unwrap_or(0..0), e.message().to_owned()))?;
+        let fluid = fluid(&doc, &raw.fluid)?;
+        let settings = settings(&doc, raw.run.get_ref(), &raw.turbulence)?;
+        let run = raw.run.get_ref();
+        let stop = stop(&doc, &raw.run)?;
+        let release = release(&doc, &raw.release)?;
+        if let (Some(ground), Some(height)) = (&run.ground, stop.ground)
+            && release.position[1] <= height
+        {
+            let message = format!(
+                "the ground is at {height} m and the body is released at {} m; release it higher",
+                release.position[1]
+            );
+            return Err(doc.error(ground.span(), message));
+        }
+        Ok(Self {
+            name: name.to_owned(),
+            description: raw.description.clone().unwrap_or_default(),
+            fluid,
+            body: shape::resolve(&doc, &raw.body)?,
+            release,
+            settings,
+            time_step: match &run.time_step {
+                Some(dt) => doc.positive(dt, "`time_step` (s)")?,
+                None => return Err(doc.error(raw.run.span(), "the run needs a `time_step` (s)")),
+            },
+            stop,
+            seed: run.seed.as_ref().map_or(Ok(0), |s| {
+                u64::try_from(*s.get_ref()).map_err(|_| {
+                    doc.error(s.span(), "`seed` must be zero or a positive whole number")
+                })
+            })?,
+            grid: grid(&doc, &raw.turbulence)?,
+            picture_interval: match &raw.picture.interval {
+                Some(interval) => Some(doc.positive(interval, "`interval` (s)")?),
+                None => None,
+            },
+        })
+    }
+
+    /// The scene as a TOML file, every choice spelled out.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        let State {
+            position,
+            orientation,
+            ..
+        } = self.release;
+        toml::to_string(&RawScene {
+            description: Some(self.description.clone()),
+            fluid: Spanned::new(
+                0..0,
+                RawFluid {
+                    preset: None,
+                    density: given(self.fluid.density),
+                    viscosity: given(self.fluid.viscosity),
+                    velocity: given(self.fluid.velocity),
+                },
+            ),
+            body: Spanned::new(0..0, shape::write(&self.body)),
+            release: RawRelease {
+                position: given(position),
+                orientation: given(orientation),
+                velocity: given(self.release.world_velocity()),
+                angular_velocity: given(self.release.world_angular_velocity()),
+                ..RawRelease::default()
+            },
+            run: Spanned::new(
+                0..0,
+                RawRun {
+                    model: given(self.settings.model.to_string()),
+                    integrator: given(self.settings.integrator.to_string()),
+                    turbulence: given(self.settings.turbulence.to_string()),
+                    time_step: given(self.time_step),
+                    duration: self.stop.time.and_then(given),
+                    ground: self.stop.ground.and_then(given),
+                    seed: given(self.seed as i64),
+                    gravity: given(self.settings.gravity),
+                },
+            ),
+            turbulence: RawTurbulence {
+                length: self.settings.turbulence_length.and_then(given),
+                cells: given(self.grid.cells.map(|n| n as i64)),
+                cell: self.grid.cell.and_then(given),
+                inflow_speed: self.grid.inflow_speed.and_then(given),
+                time_step: self.grid.time_step.and_then(given),
+                duration: self.grid.duration.and_then(given),
+                sampling: given(sampling_name(self.grid.sampling).to_owned()),
+            },
+            picture: RawPicture {
+                interval: self.picture_interval.and_then(given),
+            },
+        })
+    }
+}
+
+fn fluid(doc: &Document, raw: &Spanned<RawFluid>) -> Result<Fluid, SceneError> {
+    let given = raw.get_ref();
+    let preset = match given.preset.as_ref().map(|p| (p, p.get_ref().as_str())) {
+        None => None,
+        Some((_, "air")) => Some(Fluid::AIR),
+        Some((_, "water")) => Some(Fluid::WATER),
+        Some((p, other)) => {
+            let message = format!(
+                "`{other}` is no preset fluid; choose air or water, or give `density` and `viscosity`"
+            );
+            return Err(doc.error(p.span(), message));
+        }
+    };
+    let quantity = |value: &Given<f64>, of_preset: Option<f64>, what: &str| match (value, of_preset)
+    {
+        (Some(v), _) => doc.positive(v, what),
+        (None, Some(p)) => Ok(p),
+        (None, None) => Err(doc.error(
+            raw.span(),
+            format!("the fluid needs {what}, or a `preset` (\"air\" or \"water\")"),
+        )),
+    };
+    Ok(Fluid {
+        density: quantity(
+            &given.density,
+            preset.map(|p| p.density),
+            "`density` (kg/m^3)",
+        )?,
+        viscosity: quantity(
+            &given.viscosity,
+            preset.map(|p| p.viscosity),
+            "`viscosity` (kinematic, m^2/s)",
+        )?,
+        velocity: vector(doc, &given.velocity, "`velocity` (m/s)")?,
+    })
+}
+
+fn vector<const N: usize>(
+    doc: &Document,
+    value: &Given<[f64; N]>,
+    what: &str,
+) -> Result<[f64; N], SceneError> {
+    value
+        .as_ref()
+        .map_or(Ok([0.0; N]), |v| doc.finite_all(v, what))
+}
+
+fn settings(
+    doc: &Document,
+    run: &RawRun,
+    turbulence: &RawTurbulence,
+) -> Result<Settings, SceneError> {
+    let defaults = Settings::default();
+    let model = run
+        .model
+        .as_ref()
+        .map_or(Ok(defaults.model), |m| doc.name::<Model>(m))?;
+    let published = matches!(model, Model::Published(_));
+    let integrator = match &run.integrator {
+        Some(name) => {
+            let integrator = doc.name::<Integrator>(name)?;
+            if published && integrator != Integrator::RungeKutta4 {
+                let message = "the model `published` is defined with the integrator `rk4` only";
+                return Err(doc.error(name.span(), message));
+            }
+            integrator
+        }
+        None if published => Integrator::RungeKutta4,
+        None => defaults.integrator,
+    };
+    let length = |l| doc.positive(l, "`length` (m)");
+    Ok(Settings {
+        model,
+        integrator,
+        turbulence: run
+            .turbulence
+            .as_ref()
+            .map_or(Ok(defaults.turbulence), |t| doc.name(t))?,
+        gravity: match &run.gravity {
+            Some(g) => doc.finite_all(g, "`gravity` (m/s^2)")?,
+            None => defaults.gravity,
+        },
+        turbulence_length: turbulence.length.as_ref().map(length).transpose()?,
+        reynolds: None,
+    })
+}
+
+fn stop(doc: &Document, run: &Spanned<RawRun>) -> Result<StopAt, SceneError> {
+    let raw = run.get_ref();
+    let stop = StopAt {
+        time: raw
+            .duration
+            .as_ref()
+            .map(|t| doc.positive(t, "`duration` (s)"))
+            .transpose()?,
+        ground: raw
+            .ground
+            .as_ref()
+            .map(|y| doc.finite(y, "`ground` (m)"))
+            .transpose()?,
+    };
+    match stop {
+        StopAt {
+            time: None,
+            ground: None,
+        } => {
+            let message =
+                "the run would never end: give a `duration` (s), a `ground` (height in m), or both";
+            Err(doc.error(run.span(), message))
+        }
+        stop => Ok(stop),
+    }
+}
+
+fn release(doc: &Document, raw: &RawRelease) -> Result<State, SceneError> {
+    let mut state = State {
+        position: vector(doc, &raw.position, "`position` (m)")?,
+        orientation: orientation(doc, raw)?,
+        ..State::default()
+    };
+    state.set_world_velocities(
+        vector(doc, &raw.velocity, "`velocity` (m/s)")?,
+        vector(doc, &raw.angular_velocity, "`angular_velocity` (rad/s)")?,
+    );
+    Ok(state)
+}
+
+fn orientation(doc: &Document, raw: &RawRelease) -> Result<[f64; 4], SceneError> {
+    if let Some(given) = &raw.orientation {
+        let q = doc.finite_all(given, "`orientation`")?;
+        let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if (length - 1.0).abs() > 1e-6 {
+            let message = format!(
+                "`orientation` [x, y, z, w] must be a unit quaternion; its length is {length}"
+            );
+            return Err(doc.error(given.span(), message));
+        }
+        if let Some(tilt) = &raw.tilt {
+            return Err(doc.error(tilt.span(), "give a `tilt` or an `orientation`, not both"));
+        }
+        return Ok(q.map(|x| x / length));
+    }
+    let axis = match &raw.tilt_axis {
+        None => [0.0, 0.0, 1.0],
+        Some(given) => {
+            let axis = doc.finite_all(given, "`tilt_axis`")?;
+            let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if length == 0.0 {
+                return Err(doc.error(given.span(), "`tilt_axis` must not be zero"));
+            }
+            axis.map(|x| x / length)
+        }
+    };
+    let degrees = raw
+        .tilt
+        .as_ref()
+        .map_or(Ok(0.0), |t| doc.finite(t, "`tilt` (degrees)"))?;
+    Ok(quat_from_rotation_vector(
+        axis.map(|x| x * degrees.to_radians()),
+    ))
+}
+
+fn grid(doc: &Document, raw: &RawTurbulence) -> Result<Grid, SceneError> {
+    let positive =
+        |value: &Given<f64>, what| value.as_ref().map(|v| doc.positive(v, what)).transpose();
+    let mut cells = Grid::default().cells;
+    if let Some(wanted) = &raw.cells {
+        for (n, &want) in cells.iter_mut().zip(wanted.get_ref()) {
+            *n = usize::try_from(want)
+                .ok()
+                .filter(|n| *n > 0)
+                .ok_or_else(|| {
+                    doc.error(
+                        wanted.span(),
+                        "`cells` must be three positive whole numbers",
+                    )
+                })?;
+        }
+    }
+    Ok(Grid {
+        cells,
+        cell: positive(&raw.cell, "`cell` (m)")?,
+        inflow_speed: positive(&raw.inflow_speed, "`inflow_speed` (m/s)")?,
+        time_step: positive(&raw.time_step, "`time_step` (s)")?,
+        duration: positive(&raw.duration, "`duration` (s)")?,
+        sampling: raw.sampling.as_ref().map_or(Ok(Sampling::Fixed), |s| {
+            match s.get_ref().as_str() {
+                "fixed" => Ok(Sampling::Fixed),
+                "passive-particle" => Ok(Sampling::PassiveParticle),
+                other => {
+                    let message =
+                        format!("`{other}` is no sampling; choose fixed or passive-particle");
+                    Err(doc.error(s.span(), message))
+                }
+            }
+        })?,
+    })
+}
+
+fn sampling_name(sampling: Sampling) -> &'static str {
+    match sampling {
+        Sampling::Fixed => "fixed",
+        Sampling::PassiveParticle => "passive-particle",
+    }
+}

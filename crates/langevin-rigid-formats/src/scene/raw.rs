@@ -1,0 +1,102 @@
+//! A scene file as it is written: every value optional and with its place in the file.
+
+use serde::{Deserialize, Serialize};
+use serde_spanned::Spanned;
+
+/// A value that may be absent and knows where it stands.
+pub(super) type Given<T> = Option<Spanned<T>>;
+
+/// Wraps a value that comes from no file.
+pub(super) fn given<T>(value: T) -> Given<T> {
+    Some(Spanned::new(0..0, value))
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawScene {
+    pub(super) description: Option<String>,
+    pub(super) fluid: Spanned<RawFluid>,
+    pub(super) body: Spanned<RawBody>,
+    #[serde(default)]
+    pub(super) release: RawRelease,
+    pub(super) run: Spanned<RawRun>,
+    #[serde(default)]
+    pub(super) turbulence: RawTurbulence,
+    #[serde(default)]
+    pub(super) picture: RawPicture,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawFluid {
+    pub(super) preset: Given<String>,
+    pub(super) density: Given<f64>,
+    pub(super) viscosity: Given<f64>,
+    pub(super) velocity: Given<[f64; 3]>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawBody {
+    pub(super) shape: Given<String>,
+    pub(super) semi_axes: Given<Vec<f64>>,
+    pub(super) size: Given<[f64; 3]>,
+    pub(super) radius: Given<f64>,
+    pub(super) diameter: Given<f64>,
+    pub(super) inner_diameter: Given<f64>,
+    pub(super) hole: Given<f64>,
+    pub(super) height: Given<f64>,
+    pub(super) side: Given<f64>,
+    pub(super) thickness: Given<f64>,
+    pub(super) triangles: Given<i64>,
+    pub(super) mesh: Given<String>,
+    pub(super) unit: Given<String>,
+    pub(super) density: Given<f64>,
+    pub(super) mass: Given<f64>,
+    pub(super) centre_of_mass: Given<[f64; 3]>,
+    pub(super) inertia: Given<[[f64; 3]; 3]>,
+    pub(super) characteristic_thickness: Given<f64>,
+    pub(super) characteristic_length: Given<f64>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRelease {
+    pub(super) position: Given<[f64; 3]>,
+    pub(super) tilt: Given<f64>,
+    pub(super) tilt_axis: Given<[f64; 3]>,
+    pub(super) orientation: Given<[f64; 4]>,
+    pub(super) velocity: Given<[f64; 3]>,
+    pub(super) angular_velocity: Given<[f64; 3]>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRun {
+    pub(super) model: Given<String>,
+    pub(super) integrator: Given<String>,
+    pub(super) turbulence: Given<String>,
+    pub(super) time_step: Given<f64>,
+    pub(super) duration: Given<f64>,
+    pub(super) ground: Given<f64>,
+    pub(super) seed: Given<i64>,
+    pub(super) gravity: Given<[f64; 3]>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawTurbulence {
+    pub(super) length: Given<f64>,
+    pub(super) cells: Given<[i64; 3]>,
+    pub(super) cell: Given<f64>,
+    pub(super) inflow_speed: Given<f64>,
+    pub(super) time_step: Given<f64>,
+    pub(super) duration: Given<f64>,
+    pub(super) sampling: Given<String>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawPicture {
+    pub(super) interval: Given<f64>,
+}

@@ -1,0 +1,145 @@
+//! The built-in scenes and how a scene is found.
+
+use std::path::Path;
+
+use super::{Geometry, Scene, SceneError};
+
+/// A scene that is part of the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BuiltIn {
+    /// Its name.
+    pub name: &'static str,
+    /// Its TOML.
+    pub text: &'static str,
+}
+
+macro_rules! built_in {
+    ($($name:literal),* $(,)?) => {
+        &[$(BuiltIn {
+            name: $name,
+            text: include_str!(concat!("../../../../scenes/", $name, ".toml")),
+        }),*]
+    };
+}
+
+/// All built-in scenes, in the order they are listed.
+pub const BUILT_IN: &[BuiltIn] = built_in![
+    "paper-75",
+    "paper-30",
+    "airplane",
+    "ellipsoid-water",
+    "table2-ellipsoid-320-1ms",
+    "table2-ellipsoid-320-5ms",
+    "table2-ellipsoid-320-10ms",
+    "table2-ellipsoid-1280-5ms",
+    "table2-paper-5ms",
+    "table2-airplane-5ms",
+];
+
+impl BuiltIn {
+    /// The scene, read and checked.
+    ///
+    /// # Errors
+    /// None, as a test makes sure of for each.
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        Scene::parse(
+            self.name,
+            &format!("{}.toml (built in)", self.name),
+            self.text,
+        )
+    }
+}
+
+/// Why a scene could not be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum FindError {
+    /// Neither a built-in scene nor a file.
+    #[error(
+        "there is no built-in scene and no file `{name}`; built-in scenes are {}",
+        names()
+    )]
+    Unknown {
+        /// The name as given.
+        name: String,
+    },
+    /// The file cannot be read.
+    #[error("cannot read the scene `{file}`: {error}")]
+    Read {
+        /// The file.
+        file: String,
+        /// What the system said.
+        error: std::io::Error,
+    },
+    /// The file is no scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+fn names() -> String {
+    let names: Vec<&str> = BUILT_IN.iter().map(|s| s.name).collect();
+    names.join(", ")
+}
+
+/// Opens the built-in scene of that name, or else the scene file at that path.
+///
+/// A mesh path in a file becomes relative to the current folder.
+///
+/// # Errors
+/// See [`FindError`].
+pub fn find(name: &str) -> Result<Scene, FindError> {
+    if let Some(scene) = BUILT_IN.iter().find(|s| s.name == name) {
+        return Ok(scene.scene()?);
+    }
+    let path = Path::new(name);
+    if !path.exists() {
+        return Err(FindError::Unknown {
+            name: name.to_owned(),
+        });
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| FindError::Read {
+        file: name.to_owned(),
+        error,
+    })?;
+    let stem = path
+        .file_stem()
+        .map_or_else(|| name.into(), |s| s.to_string_lossy());
+    let mut scene = Scene::parse(&stem, name, &text)?;
+    if let Geometry::Mesh { path: mesh, .. } = &mut scene.body.geometry
+        && let Some(folder) = path.parent()
+    {
+        *mesh = folder.join(&mesh);
+    }
+    Ok(scene)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_scene_reads_and_says_what_it_shows() {
+        for built_in in BUILT_IN {
+            let scene = built_in.scene().unwrap_or_else(|e| panic!("{e}"));
+            assert!(!scene.description.is_empty(), "{}", scene.name);
+        }
+    }
+
+    #[test]
+    fn resolved_scenes_read_back_as_themselves() {
+        for built_in in BUILT_IN {
+            let scene = built_in.scene().unwrap();
+            let text = scene.to_toml().unwrap();
+            let again = Scene::parse(&scene.name, "resolved", &text).unwrap();
+            assert_eq!(again, scene, "{text}");
+        }
+    }
+
+    #[test]
+    fn an_unknown_name_lists_the_known_ones() {
+        let message = find("paper-76").unwrap_err().to_string();
+        assert!(
+            message.contains("paper-76") && message.contains("paper-75"),
+            "{message}"
+        );
+    }
+}
