@@ -1,1 +1,253 @@
-//! To come.
+//! Volume, mass, centre of mass and inertia of a body.
+//!
+//! The integrals over the polyhedron are exact; they are taken about the mesh's own middle, so
+//! that a mesh far from the origin loses no digits. A uniform body follows from its density
+//! ([`MassProperties::of`]); a measured or weighted one by replacing the density, mass, centre of
+//! mass or inertia.
+
+mod inertia;
+
+use crate::mesh::TriMesh;
+use crate::mesh::vector::{add, cross, dot, scale, sub};
+
+pub use inertia::principal_moments;
+
+/// Volume, mass and inertia of a rigid body, in the frame of its mesh.
+///
+/// ```
+/// use langevin_rigid_bake::mass_properties::MassProperties;
+/// use langevin_rigid_bake::shapes::Shape;
+///
+/// let brick = Shape::Box { size: [0.2, 0.05, 0.1] }.mesh(12)?;
+/// let brick = MassProperties::of(&brick, 1800.0)?;
+/// assert!((brick.mass - 1.8).abs() < 1e-14);
+/// assert!((brick.inertia[0][0] - 1.8 / 12.0 * (0.05 * 0.05 + 0.1 * 0.1)).abs() < 1e-16);
+///
+/// let weighted_below = brick.with_centre_of_mass([0.0, -0.01, 0.0])?;
+/// assert_eq!(weighted_below.centroid, brick.centroid);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MassProperties {
+    /// Volume (m³).
+    pub volume: f64,
+    /// Centroid of the volume (m), where buoyancy acts.
+    pub centroid: [f64; 3],
+    /// Mass (kg).
+    pub mass: f64,
+    /// Centre of mass (m); the centroid for a uniform body.
+    pub centre_of_mass: [f64; 3],
+    /// Inertia tensor about the centre of mass, along the mesh's axes (kg m²).
+    pub inertia: [[f64; 3]; 3],
+}
+
+impl MassProperties {
+    /// The properties of a body of uniform `density` (kg/m³).
+    ///
+    /// # Errors
+    ///
+    /// [`MassError::NotPositive`] where the density is not positive and finite.
+    pub fn of(mesh: &TriMesh, density: f64) -> Result<MassProperties, MassError> {
+        check_positive("density", density, "kg/m³")?;
+        let middle = middle_of(mesh);
+        let moments = Moments::about(mesh, middle);
+        let from_middle = moments.centroid();
+        let centroid = add(middle, from_middle);
+        Ok(MassProperties {
+            volume: moments.volume,
+            centroid,
+            mass: density * moments.volume,
+            centre_of_mass: centroid,
+            inertia: inertia_of(&moments, from_middle, density),
+        })
+    }
+
+    /// Mean density (kg/m³).
+    pub fn density(&self) -> f64 {
+        self.mass / self.volume
+    }
+
+    /// The same body with its mass (kg) and, in proportion, its inertia replaced.
+    ///
+    /// # Errors
+    ///
+    /// [`MassError::NotPositive`] where the mass is not positive and finite.
+    pub fn with_mass(self, mass: f64) -> Result<MassProperties, MassError> {
+        check_positive("mass", mass, "kg")?;
+        let ratio = mass / self.mass;
+        let inertia = self.inertia.map(|row| scale(ratio, row));
+        Ok(MassProperties {
+            mass,
+            inertia,
+            ..self
+        })
+    }
+
+    /// The same body with its mass and inertia scaled to a mean `density` (kg/m³).
+    ///
+    /// # Errors
+    ///
+    /// [`MassError::NotPositive`] where the density is not positive and finite.
+    pub fn with_density(self, density: f64) -> Result<MassProperties, MassError> {
+        check_positive("density", density, "kg/m³")?;
+        self.with_mass(density * self.volume)
+    }
+
+    /// The same body with its centre of mass (m) moved; the inertia about the centre of mass is
+    /// kept, so give the measured one too where it is known.
+    ///
+    /// # Errors
+    ///
+    /// [`MassError::NotFinite`] where a coordinate is infinite or not a number.
+    pub fn with_centre_of_mass(self, centre: [f64; 3]) -> Result<MassProperties, MassError> {
+        if !centre.iter().all(|x| x.is_finite()) {
+            return Err(MassError::NotFinite {
+                quantity: "centre of mass",
+            });
+        }
+        Ok(MassProperties {
+            centre_of_mass: centre,
+            ..self
+        })
+    }
+
+    /// The same body with its inertia about the centre of mass (kg m², along the mesh's axes)
+    /// replaced.
+    ///
+    /// # Errors
+    ///
+    /// A [`MassError`] where the tensor is not finite, not symmetric to 1e-9 of its largest entry,
+    /// not positive definite, or has a principal moment above the sum of the other two, which no
+    /// distribution of mass has.
+    pub fn with_inertia(self, inertia: [[f64; 3]; 3]) -> Result<MassProperties, MassError> {
+        let inertia = inertia::checked(inertia)?;
+        Ok(MassProperties { inertia, ..self })
+    }
+}
+
+/// Why masses or inertias are impossible.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MassError {
+    /// A density or mass that is not positive and finite.
+    #[error("the {quantity} must be positive and finite, not {value} {unit}")]
+    NotPositive {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// A component that is infinite or not a number.
+    #[error("the {quantity} has a component that is not finite")]
+    NotFinite {
+        /// Name of the quantity.
+        quantity: &'static str,
+    },
+    /// The inertia tensor is not symmetric.
+    #[error(
+        "the inertia is not symmetric: entry ({row}, {column}) is {upper} but ({column}, {row}) is {lower} kg m²; give a symmetric matrix, products of inertia with their minus sign (Ixy = -sum m x y)"
+    )]
+    NotSymmetric {
+        /// Row of the first entry, from 0.
+        row: usize,
+        /// Column of the first entry, from 0.
+        column: usize,
+        /// The first entry.
+        upper: f64,
+        /// Its mirror image.
+        lower: f64,
+    },
+    /// The inertia tensor is not positive definite.
+    #[error(
+        "the inertia is not positive definite: its principal moments are {moments:?} kg m²; all must be positive"
+    )]
+    NotPositiveDefinite {
+        /// Principal moments, ascending (kg m²).
+        moments: [f64; 3],
+    },
+    /// One principal moment exceeds the sum of the others.
+    #[error(
+        "no body has the principal moments of inertia {moments:?} kg m²: the largest exceeds the sum of the other two; check the units and the signs of the products of inertia"
+    )]
+    TriangleInequality {
+        /// Principal moments, ascending (kg m²).
+        moments: [f64; 3],
+    },
+}
+
+fn check_positive(quantity: &'static str, value: f64, unit: &'static str) -> Result<(), MassError> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(MassError::NotPositive {
+        quantity,
+        value,
+        unit,
+    })
+}
+
+/// Centroid of the volume of a mesh (m).
+pub(crate) fn centroid(mesh: &TriMesh) -> [f64; 3] {
+    let middle = middle_of(mesh);
+    add(middle, Moments::about(mesh, middle).centroid())
+}
+
+fn middle_of(mesh: &TriMesh) -> [f64; 3] {
+    let [low, high] = mesh.bounding_box();
+    scale(0.5, add(low, high))
+}
+
+/// Integrals of 1, x and x xᵀ over the polyhedron.
+struct Moments {
+    volume: f64,
+    first: [f64; 3],
+    second: [[f64; 3]; 3],
+}
+
+impl Moments {
+    /// Sums over the tetrahedra from `origin` to each triangle a b c, whose integral of x xᵀ is
+    /// V/20 (a aᵀ + b bᵀ + c cᵀ + s sᵀ) with s = a + b + c.
+    fn about(mesh: &TriMesh, origin: [f64; 3]) -> Moments {
+        let mut m = Moments {
+            volume: 0.0,
+            first: [0.0; 3],
+            second: [[0.0; 3]; 3],
+        };
+        for t in 0..mesh.triangles().len() {
+            let [a, b, c] = mesh.corners(t).map(|v| sub(v, origin));
+            let volume = dot(a, cross(b, c)) / 6.0;
+            let s = add(a, add(b, c));
+            m.volume += volume;
+            m.first = add(m.first, scale(0.25 * volume, s));
+            for i in 0..3 {
+                for j in 0..3 {
+                    let products = a[i] * a[j] + b[i] * b[j] + c[i] * c[j] + s[i] * s[j];
+                    m.second[i][j] += 0.05 * volume * products;
+                }
+            }
+        }
+        m
+    }
+
+    /// The centroid from the origin of the moments.
+    fn centroid(&self) -> [f64; 3] {
+        scale(1.0 / self.volume, self.first)
+    }
+}
+
+/// Inertia about the centroid (`c` from the origin of the moments): tr S 1 − S with the second
+/// moments S shifted there.
+fn inertia_of(m: &Moments, c: [f64; 3], density: f64) -> [[f64; 3]; 3] {
+    let second = |i: usize, j: usize| m.second[i][j] - m.volume * c[i] * c[j];
+    let trace = second(0, 0) + second(1, 1) + second(2, 2);
+    let entry = |i: usize, j: usize| {
+        let diagonal = if i == j { trace } else { 0.0 };
+        density * (diagonal - second(i, j))
+    };
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,1 +1,203 @@
-//! Mesh readers.
+//! Triangle meshes from files: OBJ, STL, PLY, glTF and GLB.
+//!
+//! [`read_mesh`] gives the triangles as they are in the file, in metres; [`RawMesh::body`] and
+//! [`RawMesh::sheet`] make a checked body of them. Polygons are split into fans from their first
+//! corner, which is right for convex ones only: triangulate others before exporting. Vertices that
+//! a format stores once per facet or seam are welded where their positions are equal to the last
+//! bit: always for STL and glTF, for OBJ and PLY where the surface is open otherwise.
+//!
+//! The readers take nothing in a file at its word: a damaged or hostile file gives a
+//! [`ParseError`], never a panic, and no more memory than the file's own length calls for.
+
+mod error;
+mod gltf;
+mod obj;
+mod ply;
+mod stl;
+mod unit;
+
+use std::path::Path;
+
+use langevin_rigid_bake::mesh::{MeshError, TriMesh, open_edge_count, weld};
+
+pub use error::{ParseError, Place, ReadError};
+pub use obj::write_obj;
+pub use stl::write_stl;
+pub use unit::{LengthUnit, UnknownUnit};
+
+/// Triangles as read from a file, unchecked; positions in metres.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RawMesh {
+    /// Vertex positions (m).
+    pub vertices: Vec<[f64; 3]>,
+    /// Vertex numbers of each triangle, all below the number of vertices.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl RawMesh {
+    /// The closed body these triangles enclose.
+    ///
+    /// # Errors
+    ///
+    /// Whatever [`TriMesh::new`] finds wrong.
+    pub fn body(self) -> Result<TriMesh, MeshError> {
+        TriMesh::new(self.vertices, self.triangles)
+    }
+
+    /// The body made of this open sheet at the given thickness (m).
+    ///
+    /// # Errors
+    ///
+    /// Whatever [`TriMesh::from_sheet`] finds wrong.
+    pub fn sheet(self, thickness: f64) -> Result<TriMesh, MeshError> {
+        TriMesh::from_sheet(self.vertices, self.triangles, thickness)
+    }
+
+    fn welded(self) -> RawMesh {
+        let (vertices, triangles) = weld(&self.vertices, &self.triangles);
+        RawMesh {
+            vertices,
+            triangles,
+        }
+    }
+
+    /// Welded, unless the vertex numbers of the file close the surface already.
+    fn welded_if_open(self) -> RawMesh {
+        if open_edge_count(&self.triangles) == 0 {
+            self
+        } else {
+            self.welded()
+        }
+    }
+
+    fn in_metres(mut self, unit: LengthUnit) -> RawMesh {
+        for x in self.vertices.as_flattened_mut() {
+            *x = unit.to_metres(*x);
+        }
+        self
+    }
+}
+
+/// A mesh file format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeshFormat {
+    /// Wavefront OBJ.
+    Obj,
+    /// STL, text or binary.
+    Stl,
+    /// Stanford PLY, text or binary of either byte order.
+    Ply,
+    /// glTF 2.0 as JSON with separate or embedded buffers.
+    Gltf,
+    /// glTF 2.0 as one binary file.
+    Glb,
+}
+
+impl MeshFormat {
+    /// The format of some bytes by what only it has, whatever the file is called.
+    pub fn of_content(bytes: &[u8]) -> Option<MeshFormat> {
+        let text = bytes.trim_ascii_start();
+        if bytes.starts_with(b"glTF") {
+            Some(MeshFormat::Glb)
+        } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
+            Some(MeshFormat::Ply)
+        } else if stl::has_binary_length(bytes) || stl::is_text(bytes) {
+            Some(MeshFormat::Stl)
+        } else if text.starts_with(b"{") {
+            Some(MeshFormat::Gltf)
+        } else if bytes
+            .split(|&b| b == b'\n')
+            .any(|line| line.trim_ascii_start().starts_with(b"v "))
+        {
+            Some(MeshFormat::Obj)
+        } else {
+            None
+        }
+    }
+
+    /// The format a file's extension names, in upper or lower case.
+    pub fn of_extension(path: &Path) -> Option<MeshFormat> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "obj" => Some(MeshFormat::Obj),
+            "stl" => Some(MeshFormat::Stl),
+            "ply" => Some(MeshFormat::Ply),
+            "gltf" => Some(MeshFormat::Gltf),
+            "glb" => Some(MeshFormat::Glb),
+            _ => None,
+        }
+    }
+}
+
+/// Reads the triangles of a mesh file whose lengths are in `unit`.
+///
+/// The content decides on the format; the extension where the content does not. All objects of an
+/// OBJ file and all meshes of the default scene of a glTF file come together, placed by the scene's
+/// nodes; buffers of a `.gltf` file are looked for beside it.
+///
+/// ```no_run
+/// use langevin_rigid_formats::mesh::{LengthUnit, read_mesh};
+///
+/// let leaf = read_mesh("leaf.obj".as_ref(), LengthUnit::Cm)?.sheet(0.0002)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// A [`ReadError`] where the file cannot be read, is of no known format, or a [`ParseError`] says
+/// what is wrong inside it.
+pub fn read_mesh(path: &Path, unit: LengthUnit) -> Result<RawMesh, ReadError> {
+    let bytes = std::fs::read(path).map_err(|source| ReadError::of_file(path, source))?;
+    let format = MeshFormat::of_content(&bytes).or_else(|| MeshFormat::of_extension(path));
+    let format = format.ok_or_else(|| ReadError::UnknownFormat { path: path.into() })?;
+    // The parent of a bare file name is the empty path, which joins as it should.
+    parse_mesh(&bytes, format, unit, path.parent()).map_err(|error| ReadError::Parse {
+        path: path.into(),
+        error,
+    })
+}
+
+/// Reads the triangles out of the bytes of a file.
+///
+/// `folder` is where buffers named by a [`MeshFormat::Gltf`] file are; with `None` such a file
+/// must embed them.
+///
+/// ```
+/// use langevin_rigid_formats::mesh::{LengthUnit, MeshFormat, parse_mesh};
+///
+/// let file = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+/// let square = parse_mesh(file, MeshFormat::Obj, LengthUnit::Cm, None)?;
+/// assert_eq!(square.triangles, [[0, 1, 2], [0, 2, 3]]);
+/// assert_eq!(square.vertices[1], [0.01, 0.0, 0.0]);
+/// # Ok::<(), langevin_rigid_formats::mesh::ParseError>(())
+/// ```
+///
+/// # Errors
+///
+/// A [`ParseError`] with the place in the file where it is known.
+pub fn parse_mesh(
+    bytes: &[u8],
+    format: MeshFormat,
+    unit: LengthUnit,
+    folder: Option<&Path>,
+) -> Result<RawMesh, ParseError> {
+    let mesh = match format {
+        MeshFormat::Obj => obj::parse(bytes)?.welded_if_open(),
+        MeshFormat::Stl => stl::parse(bytes)?.welded(),
+        MeshFormat::Ply => ply::parse(bytes)?.welded_if_open(),
+        MeshFormat::Gltf => gltf::parse(bytes, None, folder)?.welded(),
+        MeshFormat::Glb => gltf::parse_glb(bytes, folder)?.welded(),
+    };
+    if mesh.triangles.is_empty() {
+        return Err(ParseError::NoTriangles);
+    }
+    Ok(mesh.in_metres(unit))
+}
+
+/// Triangles of a polygon as a fan from its first corner.
+fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
+    let rim = corners.get(1..).unwrap_or_default();
+    rim.windows(2).map(|pair| [corners[0], pair[0], pair[1]])
+}
+
+#[cfg(test)]
+mod tests;

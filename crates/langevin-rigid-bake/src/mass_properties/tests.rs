@@ -1,0 +1,214 @@
+use super::*;
+use crate::mesh::vector::mat_vec;
+use crate::shapes::Shape;
+use proptest::prelude::*;
+
+fn close(a: [[f64; 3]; 3], b: [[f64; 3]; 3], tolerance: f64) -> bool {
+    let largest = b.as_flattened().iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    (0..3).all(|i| (0..3).all(|j| (a[i][j] - b[i][j]).abs() <= tolerance * largest))
+}
+
+fn rotated(m: [[f64; 3]; 3], r: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| dot(r[i], mat_vec(&m, r[j]))))
+}
+
+fn rotation([w, x, y, z]: [f64; 4]) -> [[f64; 3]; 3] {
+    let n = 1.0 / (w * w + x * x + y * y + z * z).sqrt();
+    let [w, x, y, z] = [w * n, x * n, y * n, z * n];
+    [
+        [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - w * z),
+            2.0 * (x * z + w * y),
+        ],
+        [
+            2.0 * (x * y + w * z),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - w * x),
+        ],
+        [
+            2.0 * (x * z - w * y),
+            2.0 * (y * z + w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ],
+    ]
+}
+
+#[test]
+fn box_is_exact() {
+    let [a, b, c] = [0.3, 0.02, 1.1];
+    let mesh = Shape::Box { size: [a, b, c] }.mesh(500).unwrap();
+    let got = MassProperties::of(&mesh, 700.0).unwrap();
+    let m = 700.0 * a * b * c;
+    let expected = [
+        [m / 12.0 * (b * b + c * c), 0.0, 0.0],
+        [0.0, m / 12.0 * (a * a + c * c), 0.0],
+        [0.0, 0.0, m / 12.0 * (a * a + b * b)],
+    ];
+    assert!((got.mass / m - 1.0).abs() < 1e-13);
+    assert!(close(got.inertia, expected, 1e-13));
+    assert!(got.centroid.iter().all(|x| x.abs() < 1e-15));
+}
+
+#[test]
+fn corner_tetrahedron_is_exact() {
+    // Closed forms of the tetrahedron 0, (a,0,0), (0,b,0), (0,0,c): centroid at a quarter,
+    // ∫x² = a³bc/60 and ∫xy = a²b²c/120 about the corner.
+    let [a, b, c] = [2.0, 3.0, 5.0];
+    let vertices = vec![[0.0; 3], [a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]];
+    let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let got = MassProperties::of(&TriMesh::new(vertices, triangles).unwrap(), 1.0).unwrap();
+    let volume = a * b * c / 6.0;
+    assert!((got.volume - volume).abs() < 1e-14);
+    for (x, edge) in got.centroid.into_iter().zip([a, b, c]) {
+        assert!((x - edge / 4.0).abs() < 1e-14);
+    }
+    let ixx = volume * (b * b + c * c) * (1.0 / 10.0 - 1.0 / 16.0);
+    let ixy = -volume * a * b * (1.0 / 20.0 - 1.0 / 16.0);
+    assert!((got.inertia[0][0] - ixx).abs() < 1e-13);
+    assert!((got.inertia[0][1] - ixy).abs() < 1e-13);
+}
+
+#[test]
+fn ellipsoid_converges_to_its_closed_form_at_second_order() {
+    let [a, b, c] = [1.0, 2.0, 4.0];
+    let error = |n| {
+        let mesh = Shape::Ellipsoid {
+            semi_axes: [a, b, c],
+        }
+        .mesh(n)
+        .unwrap();
+        let got = MassProperties::of(&mesh, 1.0).unwrap();
+        got.inertia[0][0] / (got.mass / 5.0 * (b * b + c * c)) - 1.0
+    };
+    let (coarse, fine) = (error(1280), error(5120));
+    assert!(coarse.abs() < 2e-4, "{coarse}");
+    assert!(fine.abs() < coarse.abs() / 3.5, "{coarse} {fine}");
+}
+
+#[test]
+fn overrides_replace_what_they_say() {
+    let mesh = Shape::Box {
+        size: [1.0, 2.0, 3.0],
+    }
+    .mesh(12)
+    .unwrap();
+    let body = MassProperties::of(&mesh, 2.0).unwrap();
+    let heavier = body.with_mass(24.0).unwrap();
+    assert_eq!((heavier.mass, heavier.density()), (24.0, 4.0));
+    assert!(close(
+        heavier.inertia,
+        body.inertia.map(|r| scale(2.0, r)),
+        1e-15
+    ));
+    assert_eq!(body.with_density(4.0).unwrap().mass, 24.0);
+    let moved = body.with_centre_of_mass([0.1, 0.0, 0.0]).unwrap();
+    assert_eq!(
+        (moved.centre_of_mass, moved.inertia),
+        ([0.1, 0.0, 0.0], body.inertia)
+    );
+    let given = [[3.0, 0.1, 0.0], [0.1, 4.0, 0.0], [0.0, 0.0, 5.0]];
+    assert_eq!(body.with_inertia(given).unwrap().inertia, given);
+}
+
+#[test]
+fn impossible_values_are_refused_by_name() {
+    let mesh = Shape::Box { size: [1.0; 3] }.mesh(12).unwrap();
+    assert!(matches!(
+        MassProperties::of(&mesh, -1.0),
+        Err(MassError::NotPositive { .. })
+    ));
+    let body = MassProperties::of(&mesh, 1.0).unwrap();
+    assert!(matches!(
+        body.with_mass(0.0),
+        Err(MassError::NotPositive { .. })
+    ));
+    assert!(matches!(
+        body.with_density(f64::NAN),
+        Err(MassError::NotPositive { .. })
+    ));
+    let nowhere = [f64::INFINITY, 0.0, 0.0];
+    assert!(matches!(
+        body.with_centre_of_mass(nowhere),
+        Err(MassError::NotFinite { .. })
+    ));
+    let diagonal = |a, b, c| body.with_inertia([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]);
+    assert!(
+        diagonal(1.0, 1.0, 2.0).is_ok(),
+        "a flat body meets the inequality with equality"
+    );
+    assert!(matches!(
+        diagonal(1.0, 1.0, 2.1),
+        Err(MassError::TriangleInequality { .. })
+    ));
+    assert!(matches!(
+        diagonal(1.0, -1.0, 1.0),
+        Err(MassError::NotPositiveDefinite { .. })
+    ));
+    assert!(matches!(
+        diagonal(1.0, f64::NAN, 1.0),
+        Err(MassError::NotFinite { .. })
+    ));
+    let skew = body.with_inertia([[1.0, 0.1, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    assert!(matches!(
+        skew,
+        Err(MassError::NotSymmetric {
+            row: 0,
+            column: 1,
+            ..
+        })
+    ));
+    // Positive diagonal, negative eigenvalue: 1 ± 1.5.
+    let indefinite = body.with_inertia([[1.0, 1.5, 0.0], [1.5, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    assert!(matches!(
+        indefinite,
+        Err(MassError::NotPositiveDefinite { .. })
+    ));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(64) })]
+
+    /// A rigid motion by up to 1000 body lengths moves the centroid, turns the inertia and
+    /// changes nothing else; a uniform scale a multiplies by a³ and a⁵.
+    #[test]
+    fn similarity_transforms_act_as_they_must(
+        q in prop::array::uniform4(-1.0..1.0f64).prop_filter("not zero", |q| q.iter().any(|x| x.abs() > 0.1)),
+        shift in prop::array::uniform3(-2000.0..2000.0f64),
+        factor in 0.1..10.0f64,
+        size in prop::array::uniform3(0.5..2.0f64),
+    ) {
+        let vertices = vec![[0.0; 3], [size[0], 0.0, 0.0], [0.1, size[1], 0.0], [0.3, 0.2, size[2]]];
+        let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let mesh = TriMesh::new(vertices, triangles).unwrap();
+        let before = MassProperties::of(&mesh, 3.0).unwrap();
+        let r = rotation(q);
+        let moved = mesh.transformed(r, shift, 1.0).unwrap();
+        let after = MassProperties::of(&moved, 3.0).unwrap();
+        prop_assert!((after.volume / before.volume - 1.0).abs() < 1e-10);
+        prop_assert!(close(after.inertia, rotated(before.inertia, &r), 1e-10));
+        let expected = add(mat_vec(&r, before.centroid), shift);
+        prop_assert!((0..3).all(|k| (after.centroid[k] - expected[k]).abs() < 1e-11));
+
+        let scaled = MassProperties::of(&mesh.transformed(crate::mesh::vector::IDENTITY, [0.0; 3], factor).unwrap(), 3.0).unwrap();
+        prop_assert!((scaled.mass / (before.mass * factor.powi(3)) - 1.0).abs() < 1e-12);
+        let fifth = factor.powi(5);
+        prop_assert!(close(scaled.inertia, before.inertia.map(|row| scale(fifth, row)), 1e-12));
+    }
+
+    /// Eigenvalues of R diag R^T are the diagonal.
+    #[test]
+    fn principal_moments_survive_rotation(
+        q in prop::array::uniform4(0.1..1.0f64),
+        moments in prop::array::uniform3(-5.0..5.0f64),
+    ) {
+        let mut diagonal = [[0.0; 3]; 3];
+        for k in 0..3 {
+            diagonal[k][k] = moments[k];
+        }
+        let mut sorted = moments;
+        sorted.sort_unstable_by(f64::total_cmp);
+        let got = principal_moments(rotated(diagonal, &rotation(q)));
+        prop_assert!((0..3).all(|k| (got[k] - sorted[k]).abs() < 1e-13));
+    }
+}

@@ -1,0 +1,324 @@
+//! Every check a triangle soup must pass to be a body.
+
+use super::edges::{Side, by_edge, sorted_sides};
+use super::vector::{add, cross, dot, norm, scale, sub};
+use super::{EdgeSite, MeshError, TriMesh};
+
+/// Twice the area over the square of the longest edge, below which a triangle has no area: ten
+/// thousand times the rounding of coordinates a hundred body lengths from the origin.
+const DEGENERATE: f64 = 1e-10;
+/// Volume over area times bounding-box diagonal, below which a closed surface is flat.
+const FLAT: f64 = 1e-10;
+/// Greatest deviation of RᵀR from the unit matrix in a transformation.
+const ORTHOGONAL: f64 = 1e-9;
+
+/// Checks all but the volume.
+pub(super) fn closed_manifold(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+) -> Result<(), MeshError> {
+    well_formed(vertices, triangles)?;
+    let sides = sorted_sides(triangles);
+    manifold_edges(vertices, &sides)?;
+    no_open_edges(vertices, &sides)?;
+    oriented(vertices, triangles.len(), &sides)?;
+    manifold_vertices(vertices, triangles)?;
+    connected(triangles.len(), &sides)
+}
+
+/// Checks each triangle by itself, and that none is there twice.
+pub(super) fn well_formed(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    if triangles.is_empty() {
+        return Err(MeshError::Empty);
+    }
+    finite(vertices)?;
+    indices_in_range(vertices, triangles)?;
+    no_degenerate(vertices, triangles)?;
+    no_duplicates(triangles)
+}
+
+pub(super) fn finite(vertices: &[[f64; 3]]) -> Result<(), MeshError> {
+    let mut bad = (0..vertices.len()).filter(|&v| !vertices[v].iter().all(|x| x.is_finite()));
+    match bad.next() {
+        None => Ok(()),
+        Some(vertex) => Err(MeshError::NonFiniteVertex {
+            vertex,
+            count: 1 + bad.count(),
+        }),
+    }
+}
+
+fn indices_in_range(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    for (triangle, corners) in triangles.iter().enumerate() {
+        if let Some(&index) = corners.iter().find(|&&v| v as usize >= vertices.len()) {
+            return Err(MeshError::IndexOutOfRange {
+                triangle,
+                index,
+                vertices: vertices.len(),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn no_degenerate(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    let flat = |t: &usize| has_no_area(triangles[*t].map(|v| vertices[v as usize]));
+    let mut bad = (0..triangles.len()).filter(flat);
+    match bad.next() {
+        None => Ok(()),
+        Some(triangle) => Err(MeshError::DegenerateTriangle {
+            triangle,
+            vertices: triangles[triangle],
+            count: 1 + bad.count(),
+        }),
+    }
+}
+
+/// A repeated vertex makes the area exactly zero, so this finds it as well.
+fn has_no_area([a, b, c]: [[f64; 3]; 3]) -> bool {
+    let (u, v, w) = (sub(b, a), sub(c, a), sub(c, b));
+    let longest_squared = dot(u, u).max(dot(v, v)).max(dot(w, w));
+    // Written so that an overflow to infinity or not-a-number counts as degenerate.
+    let has_area = norm(cross(u, v)) > DEGENERATE * longest_squared;
+    !has_area
+}
+
+fn no_duplicates(triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    let mut keyed: Vec<([u32; 3], usize)> = triangles.iter().copied().zip(0..).collect();
+    for (key, _) in &mut keyed {
+        key.sort_unstable();
+    }
+    keyed.sort_unstable();
+    let repeats = keyed.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+    let count = repeats.clone().count();
+    match repeats.min_by_key(|pair| pair[1].1) {
+        None => Ok(()),
+        Some(pair) => Err(MeshError::DuplicateTriangle {
+            first: pair[0].1,
+            second: pair[1].1,
+            count,
+        }),
+    }
+}
+
+/// The first edge in triangle order among `bad`, and how many there are.
+fn first_site<'a>(
+    vertices: &[[f64; 3]],
+    bad: impl Iterator<Item = &'a [Side]> + Clone,
+) -> Option<(EdgeSite, &'a [Side], usize)> {
+    let edge = bad
+        .clone()
+        .min_by_key(|edge| (edge[0].triangle, edge[0].vertices))?;
+    Some((site(vertices, &edge[0]), edge, bad.count()))
+}
+
+pub(super) fn site(vertices: &[[f64; 3]], side: &Side) -> EdgeSite {
+    let [a, b] = side.vertices.map(|v| vertices[v as usize]);
+    EdgeSite {
+        vertices: side.vertices,
+        triangle: side.triangle,
+        position: scale(0.5, add(a, b)),
+    }
+}
+
+pub(super) fn manifold_edges(vertices: &[[f64; 3]], sides: &[Side]) -> Result<(), MeshError> {
+    let bad: Vec<&[Side]> = by_edge(sides).filter(|edge| edge.len() > 2).collect();
+    match first_site(vertices, bad.into_iter()) {
+        None => Ok(()),
+        Some((site, edge, count)) => Err(MeshError::NonManifoldEdge {
+            site,
+            triangles: edge.len(),
+            count,
+        }),
+    }
+}
+
+fn no_open_edges(vertices: &[[f64; 3]], sides: &[Side]) -> Result<(), MeshError> {
+    let bad: Vec<&[Side]> = by_edge(sides).filter(|edge| edge.len() == 1).collect();
+    match first_site(vertices, bad.into_iter()) {
+        None => Ok(()),
+        Some((site, _, count)) => Err(MeshError::OpenEdges { site, count }),
+    }
+}
+
+/// Two triangles agree where they run along their edge in opposite directions.
+fn disagree(edge: &[Side]) -> bool {
+    edge.len() == 2 && edge[0].backward == edge[1].backward
+}
+
+/// Checks that neighbours wind alike (edges with at most two triangles).
+pub(super) fn oriented(
+    vertices: &[[f64; 3]],
+    triangle_count: usize,
+    sides: &[Side],
+) -> Result<(), MeshError> {
+    let bad: Vec<&[Side]> = by_edge(sides).filter(|edge| disagree(edge)).collect();
+    let Some((site, _, count)) = first_site(vertices, bad.into_iter()) else {
+        return Ok(());
+    };
+    match one_sided_at(triangle_count, sides) {
+        Some(side) => Err(MeshError::NotOrientable {
+            site: self::site(vertices, &side),
+        }),
+        None => Err(MeshError::InconsistentOrientation { site, count }),
+    }
+}
+
+/// An edge at which no choice of windings lets the triangles agree, if there is one.
+fn one_sided_at(triangle_count: usize, sides: &[Side]) -> Option<Side> {
+    let mut parts = SignedParts::new(triangle_count);
+    let mut joined = by_edge(sides).filter(|edge| edge.len() == 2);
+    let conflict = joined.find(|edge| {
+        let [a, b] = [edge[0].triangle as usize, edge[1].triangle as usize];
+        !parts.join(a, b, disagree(edge))
+    });
+    conflict.map(|edge| edge[0])
+}
+
+/// Checks that the triangles at each vertex form one fan: all are reached from one by crossing
+/// edges at that vertex (edges with at most two triangles).
+pub(super) fn manifold_vertices(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+) -> Result<(), MeshError> {
+    // Each corner of a triangle starts as a fan of its own; crossing an edge joins the corners at
+    // either of its ends. Fans in excess of one at a vertex are pinches.
+    let corner = |t: u32, v: u32| {
+        let place = triangles[t as usize]
+            .iter()
+            .position(|&w| w == v)
+            .unwrap_or(0);
+        3 * t as usize + place
+    };
+    let mut fans = SignedParts::new(3 * triangles.len());
+    for edge in by_edge(&sorted_sides(triangles)).filter(|edge| edge.len() == 2) {
+        for v in edge[0].vertices {
+            fans.join(
+                corner(edge[0].triangle, v),
+                corner(edge[1].triangle, v),
+                false,
+            );
+        }
+    }
+    let mut fan_count = vec![0u32; vertices.len()];
+    for (c, &v) in triangles.as_flattened().iter().enumerate() {
+        fan_count[v as usize] += u32::from(fans.root(c).0 == c);
+    }
+    let mut bad = (0u32..).zip(&fan_count).filter(|&(_, &n)| n > 1);
+    match bad.next() {
+        None => Ok(()),
+        Some((vertex, _)) => Err(MeshError::NonManifoldVertex {
+            vertex,
+            position: vertices[vertex as usize],
+            count: 1 + bad.count(),
+        }),
+    }
+}
+
+/// Checks that every triangle is reached from every other by crossing edges.
+fn connected(triangle_count: usize, sides: &[Side]) -> Result<(), MeshError> {
+    let mut parts = SignedParts::new(triangle_count);
+    for edge in by_edge(sides).filter(|edge| edge.len() == 2) {
+        parts.join(edge[0].triangle as usize, edge[1].triangle as usize, false);
+    }
+    let roots: Vec<usize> = (0..triangle_count).map(|t| parts.root(t).0).collect();
+    let Some(triangle) = roots.iter().position(|&r| r != roots[0]) else {
+        return Ok(());
+    };
+    let mut sizes = vec![0usize; triangle_count];
+    for r in roots {
+        sizes[r] += 1;
+    }
+    sizes.retain(|&n| n > 0);
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    let count = sizes.len();
+    sizes.truncate(8);
+    Err(MeshError::SeveralComponents {
+        count,
+        sizes,
+        triangle,
+    })
+}
+
+/// Union-find whose elements also carry a sign relative to their root.
+struct SignedParts {
+    parent: Vec<usize>,
+    flipped: Vec<bool>,
+}
+
+impl SignedParts {
+    fn new(n: usize) -> SignedParts {
+        SignedParts {
+            parent: (0..n).collect(),
+            flipped: vec![false; n],
+        }
+    }
+
+    /// The root of an element and whether their signs differ; halves the path on the way.
+    fn root(&mut self, mut x: usize) -> (usize, bool) {
+        let mut flipped = false;
+        while self.parent[x] != x {
+            let up = self.parent[x];
+            // A root's own flag is never set, so this also holds one step below it.
+            self.flipped[x] ^= self.flipped[up];
+            self.parent[x] = self.parent[up];
+            flipped ^= self.flipped[x];
+            x = self.parent[x];
+        }
+        (x, flipped)
+    }
+
+    /// Joins two parts so that `a` and `b` have opposite signs (`opposite`) or the same; `false`
+    /// where they are joined already and contradict that.
+    fn join(&mut self, a: usize, b: usize, opposite: bool) -> bool {
+        let (root_a, flip_a) = self.root(a);
+        let (root_b, flip_b) = self.root(b);
+        let flip = flip_a ^ flip_b ^ opposite;
+        if root_a == root_b {
+            return !flip;
+        }
+        let (low, high) = (root_a.min(root_b), root_a.max(root_b));
+        self.parent[high] = low;
+        self.flipped[high] = flip;
+        true
+    }
+}
+
+/// Checks that the surface encloses something.
+pub(super) fn volume(mesh: &TriMesh) -> Result<(), MeshError> {
+    let [low, high] = mesh.bounding_box();
+    let size = sub(high, low);
+    let volume = mesh.signed_volume();
+    let encloses = volume.abs() > FLAT * mesh.surface_area() * norm(size);
+    if encloses {
+        Ok(())
+    } else {
+        Err(MeshError::ZeroVolume { volume, size })
+    }
+}
+
+/// Checks the parts of a similarity transformation.
+pub(super) fn transform(
+    rotation: &[[f64; 3]; 3],
+    translation: [f64; 3],
+    scale: f64,
+) -> Result<(), MeshError> {
+    let bad = |reason| Err(MeshError::BadTransform { reason });
+    if !(scale > 0.0 && scale.is_finite()) {
+        return bad("the scale must be positive and finite");
+    }
+    if !translation.iter().all(|x| x.is_finite()) {
+        return bad("the translation must be finite");
+    }
+    let orthogonal = (0..3).all(|i| {
+        (0..3).all(|j| {
+            let expected = f64::from(u8::from(i == j));
+            (dot(rotation[i], rotation[j]) - expected).abs() < ORTHOGONAL
+        })
+    });
+    if orthogonal {
+        Ok(())
+    } else {
+        bad("the rotation must be an orthogonal matrix")
+    }
+}

@@ -1,0 +1,69 @@
+//! Units of length of mesh files.
+
+use std::str::FromStr;
+
+/// The unit of length of a mesh file, by its symbol "m", "cm" or "mm".
+///
+/// ```
+/// use langevin_rigid_formats::mesh::LengthUnit;
+///
+/// let unit: LengthUnit = "mm".parse()?;
+/// assert_eq!(unit.to_metres(8.3), 0.0083);
+/// assert!("inch".parse::<LengthUnit>().is_err());
+/// # Ok::<(), langevin_rigid_formats::mesh::UnknownUnit>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LengthUnit {
+    /// Metres.
+    #[default]
+    M,
+    /// Centimetres.
+    Cm,
+    /// Millimetres.
+    Mm,
+}
+
+impl LengthUnit {
+    /// A length in this unit, in metres.
+    pub fn to_metres(self, length: f64) -> f64 {
+        // Dividing rounds once; a hundredth has been rounded before.
+        match self {
+            LengthUnit::M => length,
+            LengthUnit::Cm => length / 100.0,
+            LengthUnit::Mm => length / 1000.0,
+        }
+    }
+}
+
+impl FromStr for LengthUnit {
+    type Err = UnknownUnit;
+
+    fn from_str(symbol: &str) -> Result<LengthUnit, UnknownUnit> {
+        match symbol {
+            "m" => Ok(LengthUnit::M),
+            "cm" => Ok(LengthUnit::Cm),
+            "mm" => Ok(LengthUnit::Mm),
+            _ => Err(UnknownUnit {
+                symbol: symbol.to_owned(),
+            }),
+        }
+    }
+}
+
+impl std::fmt::Display for LengthUnit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            LengthUnit::M => "m",
+            LengthUnit::Cm => "cm",
+            LengthUnit::Mm => "mm",
+        })
+    }
+}
+
+/// The symbol is not that of a unit of length known here.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("unknown unit of length `{symbol}`: give `m`, `cm` or `mm`")]
+pub struct UnknownUnit {
+    /// What was given.
+    pub symbol: String,
+}
