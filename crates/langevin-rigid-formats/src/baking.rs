@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::{
-    Bake, Body, Fluid, SetupError, Settings, Stepper, TurbulenceHistory, TurbulenceSource,
+    Bake, Body, Fluid, Settings, SetupError, Stepper, TurbulenceHistory, TurbulenceSource,
     falling_speed,
 };
 use langevin_rigid_bake::body::{BodyBakeError, bake_body};
-use langevin_rigid_bake::{MeshError, TriMesh};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::ShapeError;
 use langevin_rigid_bake::turbulence::{FlowOptions, TurbulenceError, turbulence_history};
+use langevin_rigid_bake::{MeshError, TriMesh};
 use sha2::{Digest, Sha256};
 
 use crate::files;
@@ -42,7 +42,9 @@ pub enum SceneBakeError {
     #[error(transparent)]
     Turbulence(#[from] TurbulenceError),
     /// Body and fluid have the same density and the body is at rest: the stream has no speed.
-    #[error("the body neither falls nor moves (its density is the fluid's), so its turbulence has no inflow speed; give `inflow_speed` under [turbulence]")]
+    #[error(
+        "the body neither falls nor moves (its density is the fluid's), so its turbulence has no inflow speed; give `inflow_speed` under [turbulence]"
+    )]
     NoSpeed,
 }
 
@@ -53,13 +55,20 @@ pub enum SceneBakeError {
 pub fn mesh(scene: &Scene) -> Result<TriMesh, SceneBakeError> {
     match &scene.body.geometry {
         Geometry::Shape { shape, triangles } => Ok(shape.mesh(*triangles)?),
-        Geometry::Mesh { path, unit, thickness } => {
+        Geometry::Mesh {
+            path,
+            unit,
+            thickness,
+        } => {
             let raw = read_mesh(path, *unit)?;
             match thickness {
                 Some(t) => raw.sheet(*t),
                 None => raw.body(),
             }
-            .map_err(|error| SceneBakeError::Mesh { source_name: path.display().to_string(), error })
+            .map_err(|error| SceneBakeError::Mesh {
+                source_name: path.display().to_string(),
+                error,
+            })
         }
     }
 }
@@ -97,12 +106,20 @@ pub fn bake_scene(
     let fingerprint = fingerprint(scene, &mesh);
     let place = cache.map(|folder| cache_file(folder, &fingerprint));
     if let Some(bake) = place.as_deref().and_then(|p| from_cache(p, fingerprint)) {
-        return Ok(Baked { bake, cached: true, cache_trouble: None });
+        return Ok(Baked {
+            bake,
+            cached: true,
+            cache_trouble: None,
+        });
     }
     let bake = bake_mesh(scene, &mesh, fingerprint, progress)?;
     let cache_trouble = place.and_then(|p| files::write(&p, &bake.to_bytes()).err());
     let cache_trouble = cache_trouble.map(|e| e.to_string());
-    Ok(Baked { bake, cached: false, cache_trouble })
+    Ok(Baked {
+        bake,
+        cached: false,
+        cache_trouble,
+    })
 }
 
 fn bake_mesh(
@@ -112,13 +129,26 @@ fn bake_mesh(
     progress: &dyn Progress,
 ) -> Result<Bake, SceneBakeError> {
     let (body, added_mass) = bake_body(mesh, &scene.body.spec, progress)?;
-    let history =
-        if needs_history(scene) { Some(history(scene, &body, progress)?) } else { None };
-    let mut warnings: Vec<String> = added_mass.warnings.iter().map(ToString::to_string).collect();
+    let history = if needs_history(scene) {
+        Some(history(scene, &body, progress)?)
+    } else {
+        None
+    };
+    let mut warnings: Vec<String> = added_mass
+        .warnings
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     if mesh.was_turned() {
         warnings.push("the mesh was inside out; its triangles were turned".into());
     }
-    Ok(Bake { body, history, error_estimate: added_mass.error_estimate, warnings, fingerprint })
+    Ok(Bake {
+        body,
+        history,
+        error_estimate: added_mass.error_estimate,
+        warnings,
+        fingerprint,
+    })
 }
 
 /// The turbulence history of a scene's body.
@@ -130,11 +160,17 @@ pub fn history(
     body: &Body,
     progress: &dyn Progress,
 ) -> Result<TurbulenceHistory, SceneBakeError> {
-    let speed = scene.grid.inflow_speed.unwrap_or_else(|| characteristic_speed(scene, body));
+    let speed = scene
+        .grid
+        .inflow_speed
+        .unwrap_or_else(|| characteristic_speed(scene, body));
     if speed == 0.0 {
         return Err(SceneBakeError::NoSpeed);
     }
-    let length = scene.settings.turbulence_length.unwrap_or_else(|| body.turbulence_length());
+    let length = scene
+        .settings
+        .turbulence_length
+        .unwrap_or_else(|| body.turbulence_length());
     let mut options = FlowOptions::new(scene.grid.cells, scene.grid.cell.unwrap_or(length), speed);
     options.sampling = scene.grid.sampling;
     options.time_step = scene.grid.time_step.unwrap_or(options.time_step);
@@ -160,13 +196,22 @@ pub fn reynolds(scene: &Scene, body: &Body) -> f64 {
 /// # Errors
 /// See [`SetupError`].
 pub fn stepper(scene: &Scene, bake: &Bake) -> Result<Stepper, SetupError> {
-    let reynolds = scene.settings.reynolds.unwrap_or_else(|| reynolds(scene, &bake.body));
-    let settings = Settings { reynolds: Some(reynolds), ..scene.settings };
+    let reynolds = scene
+        .settings
+        .reynolds
+        .unwrap_or_else(|| reynolds(scene, &bake.body));
+    let settings = Settings {
+        reynolds: Some(reynolds),
+        ..scene.settings
+    };
     Stepper::new(&bake.body, &scene.fluid, bake.history.as_ref(), &settings)
 }
 
 fn cache_file(folder: &Path, fingerprint: &[u8; 32]) -> PathBuf {
-    let name: String = fingerprint[..16].iter().map(|b| format!("{b:02x}")).collect();
+    let name: String = fingerprint[..16]
+        .iter()
+        .map(|b| format!("{b:02x}"))
+        .collect();
     folder.join(format!("{name}.lrbake"))
 }
 
@@ -187,10 +232,21 @@ fn fingerprint(scene: &Scene, mesh: &TriMesh) -> [u8; 32] {
         hash.update(v.to_le_bytes());
     }
     // The debug form names every field and prints numbers so that they read back.
-    hash.update(format!("{:?} {} {}", scene.body.spec, mesh.is_smooth(), mesh.was_turned()));
+    hash.update(format!(
+        "{:?} {} {}",
+        scene.body.spec,
+        mesh.is_smooth(),
+        mesh.was_turned()
+    ));
     if needs_history(scene) {
-        let Fluid { density, velocity, .. } = scene.fluid;
-        let Settings { gravity, turbulence_length, .. } = scene.settings;
+        let Fluid {
+            density, velocity, ..
+        } = scene.fluid;
+        let Settings {
+            gravity,
+            turbulence_length,
+            ..
+        } = scene.settings;
         let released = scene.release.world_velocity();
         hash.update(format!(
             "{:?} {density} {velocity:?} {gravity:?} {turbulence_length:?} {released:?}",

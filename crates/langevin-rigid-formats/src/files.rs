@@ -21,7 +21,10 @@ pub struct WriteError {
 /// # Errors
 /// [`WriteError`]; whatever was at `path` is then still there.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    replace(path, bytes).map_err(|error| WriteError { path: path.to_owned(), error })
+    replace(path, bytes).map_err(|error| WriteError {
+        path: path.to_owned(),
+        error,
+    })
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
@@ -30,7 +33,9 @@ fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
         _ => Path::new("."),
     };
     std::fs::create_dir_all(folder)?;
-    let mut file = tempfile::Builder::new().prefix(".langevin-rigid-").tempfile_in(folder)?;
+    let mut file = tempfile::Builder::new()
+        .prefix(".langevin-rigid-")
+        .tempfile_in(folder)?;
     file.write_all(bytes)?;
     set_readable(file.as_file())?;
     file.persist(path).map_err(|e| e.error)?;
@@ -60,14 +65,20 @@ mod tests {
         write(&path, b"first").unwrap();
         write(&path, b"second").unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"second");
-        assert_eq!(std::fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+        assert_eq!(
+            std::fs::read_dir(path.parent().unwrap()).unwrap().count(),
+            1
+        );
     }
 
     #[test]
     fn a_failed_write_names_the_file_and_keeps_what_was_there() {
         let folder = tempfile::tempdir().unwrap();
         let message = write(folder.path(), b"x").unwrap_err().to_string();
-        assert!(message.contains(&folder.path().display().to_string()), "{message}");
+        assert!(
+            message.contains(&folder.path().display().to_string()),
+            "{message}"
+        );
         assert!(folder.path().is_dir());
     }
 }

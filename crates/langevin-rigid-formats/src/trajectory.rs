@@ -24,7 +24,13 @@ pub fn csv(body: u32, states: &[State]) -> String {
         let (v, w) = (state.world_velocity(), state.world_angular_velocity());
         // Writing to a string cannot fail.
         let _ = write!(table, "{body},{}", state.time);
-        for x in state.position.iter().chain(&state.orientation).chain(&v).chain(&w) {
+        for x in state
+            .position
+            .iter()
+            .chain(&state.orientation)
+            .chain(&v)
+            .chain(&w)
+        {
             let _ = write!(table, ",{x}");
         }
         table.push('\n');
