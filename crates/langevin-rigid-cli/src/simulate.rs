@@ -199,6 +199,7 @@ fn picture(scene: &Scene, baked: &Baked, states: &[State], summary: &Summary) ->
     let options = PictureOptions {
         title: Some(title),
         ground: scene.stop.ground,
+        interval: scene.picture_interval,
         ..PictureOptions::default()
     };
     Ok(trajectory_picture(&subject, &poses, &options)?.png()?)

@@ -54,7 +54,11 @@ impl Outcome {
     /// Failed with code 1 and an error that contains every word.
     fn fails_with(&self, words: &[&str]) {
         assert_eq!(self.code, 1, "{}", self.out);
-        assert!(self.err.lines().any(|l| l.starts_with("error: ")), "{}", self.err);
+        assert!(
+            self.err.lines().any(|l| l.starts_with("error: ")),
+            "{}",
+            self.err
+        );
         for word in words {
             assert!(self.err.contains(word), "`{word}` is not in: {}", self.err);
         }
@@ -121,6 +125,37 @@ fn simulate_writes_everything_it_promises() {
         0
     );
     assert_eq!(read(&place.path("again/trajectory.csv")), csv);
+}
+
+/// The whole method on a small body, to the bit: mesh, added mass, turbulence, run, table. The hash
+/// is the same on every platform and with any number of threads; when it changes, so do the
+/// trajectories of users, and the changelog must say so.
+#[test]
+fn golden_run() {
+    let place = Place::new();
+    let body = BALL
+        .replace("ellipsoid", "box")
+        .replace("semi_axes", "size");
+    let file = place.write(
+        "golden.toml",
+        &scene(&body, "duration = 0.5\nturbulence = \"history\""),
+    );
+    for threads in ["1", "2", "3"] {
+        let output = Command::cargo_bin("langevin-rigid")
+            .unwrap()
+            .current_dir(place.0.path())
+            .env("LANGEVIN_RIGID_CACHE", place.path(threads))
+            .env("RAYON_NUM_THREADS", threads)
+            .args(["simulate", &file, "--seed", "5", "--out", "golden"])
+            .output()
+            .unwrap();
+        assert!(output.status.success());
+        let csv = read(&place.path("golden/trajectory.csv"));
+        let hash = csv.bytes().fold(0xCBF2_9CE4_8422_2325u64, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
+        });
+        assert_eq!(hash, 13_868_730_733_780_913_139, "{threads} threads");
+    }
 }
 
 #[test]
@@ -270,7 +305,10 @@ fn bad_meshes_are_told_apart() {
         &CUBE.replace("f 4 1 5 8\n", "f 4 1 5 8\nf 4 1 5\n"),
         &["triangle"],
     );
-    refuse(&CUBE.replace("f 4 1 5 8", "f 8 5 1 4"), &["opposite senses", "normals"]);
+    refuse(
+        &CUBE.replace("f 4 1 5 8", "f 8 5 1 4"),
+        &["opposite senses", "normals"],
+    );
     refuse("v 0 0 0\n", &["triangle"]);
     refuse("", &[]);
     place

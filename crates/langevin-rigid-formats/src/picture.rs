@@ -85,6 +85,9 @@ pub struct PictureOptions {
     /// Most instants at which the body is drawn; fewer are where bodies would cover each other.
     /// Zero draws the path alone.
     pub max_instants: usize,
+    /// Time between two instants, s; `None` chooses the shortest at which bodies stay apart.
+    /// With a time given, bodies are drawn at all its multiples, up to 256 of them.
+    pub interval: Option<f64>,
 }
 
 impl Default for PictureOptions {
@@ -96,6 +99,7 @@ impl Default for PictureOptions {
             title: None,
             ground: None,
             max_instants: 32,
+            interval: None,
         }
     }
 }
@@ -269,9 +273,12 @@ pub fn trajectory_picture(
     let motion = Motion::new(poses)?;
     let solid = Solid::new(subject)?;
     let layout = Layout::new(&solid, &motion, options)?;
-    let instants = strobe::instants(&motion, options.max_instants, |times| {
-        crowded(&layout, &solid, &motion, times)
-    });
+    let instants = match options.interval {
+        Some(interval) => strobe::every(&motion, interval),
+        None => strobe::instants(&motion, options.max_instants, |times| {
+            crowded(&layout, &solid, &motion, times)
+        }),
+    };
     let mut canvas = Canvas::new(layout.size)?;
     draw(&mut canvas, &layout, &solid, &motion, &instants, options);
     Ok(Picture {

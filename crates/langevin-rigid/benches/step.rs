@@ -1,5 +1,9 @@
 //! Wall-clock time of one step, by model and integrator.
-#![allow(clippy::unwrap_used, missing_docs, reason = "a benchmark may panic and is nobody's interface")]
+#![allow(
+    clippy::unwrap_used,
+    missing_docs,
+    reason = "a benchmark may panic and is nobody's interface"
+)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use langevin_rigid::{Body, Fluid, Integrator, Model, NoiseStream, Settings, State, Stepper};
@@ -16,7 +20,11 @@ fn ellipsoid() -> Body {
     for (i, m) in [0.581e-4, 3.314e-4, 0.406e-4].into_iter().enumerate() {
         added_mass[3 + i][3 + i] = m * volume;
     }
-    let inertia = [[mass * 4e-4, 0.0, 0.0], [0.0, mass * 3.4e-4, 0.0], [0.0, 0.0, mass * 1e-4]];
+    let inertia = [
+        [mass * 4e-4, 0.0, 0.0],
+        [0.0, mass * 3.4e-4, 0.0],
+        [0.0, 0.0, mass * 1e-4],
+    ];
     Body {
         mass,
         inertia,
@@ -34,12 +42,20 @@ fn step(c: &mut Criterion) {
     let body = ellipsoid();
     let cases = [
         ("consistent, strang", Model::Consistent, Integrator::Strang),
-        ("consistent, rk4", Model::Consistent, Integrator::RungeKutta4),
+        (
+            "consistent, rk4",
+            Model::Consistent,
+            Integrator::RungeKutta4,
+        ),
         ("kirchhoff, strang", Model::Kirchhoff, Integrator::Strang),
     ];
     let mut group = c.benchmark_group("step");
     for (name, model, integrator) in cases {
-        let settings = Settings { model, integrator, ..Settings::default() };
+        let settings = Settings {
+            model,
+            integrator,
+            ..Settings::default()
+        };
         let stepper = Stepper::new(&body, &Fluid::WATER, None, &settings).unwrap();
         let noise = NoiseStream { seed: 1, body: 0 };
         let mut state = State::default();

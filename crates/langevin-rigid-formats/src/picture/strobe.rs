@@ -48,6 +48,23 @@ pub(super) fn instants(
     }
 }
 
+/// Most instants of a given interval.
+const MOST: usize = 256;
+
+/// All multiples of `interval` from the start of the motion, up to a limit; the start alone for
+/// an interval that is not positive.
+pub(super) fn every(motion: &Motion<'_>, interval: f64) -> Instants {
+    let steps = (motion.end() - motion.start()) / interval * (1.0 + 1e-9);
+    let more = if interval > 0.0 {
+        (steps as usize).min(MOST - 1)
+    } else {
+        0
+    };
+    let after = (1..=more).map(|k| motion.start() + k as f64 * interval);
+    let times = std::iter::once(motion.start()).chain(after).collect();
+    Instants { times, interval }
+}
+
 /// Whether more bodies overlap than a strobe picture bears.
 pub(super) fn crowded(bodies: &[Hull]) -> bool {
     let met_before = |i: usize| (0..i).filter(|&j| bodies[i].meets(&bodies[j])).count();
@@ -79,6 +96,16 @@ mod tests {
         let spaced = instants(&motion, 31, |times| times[1] - times[0] < 0.45);
         assert!((spaced.interval - 0.5).abs() < 1e-15);
         assert_eq!(spaced.times.len(), 7);
+    }
+
+    #[test]
+    fn a_given_interval_is_kept() {
+        let poses = poses(&[1.0, 2.5]);
+        let motion = Motion::new(&poses).unwrap();
+        assert_eq!(every(&motion, 0.5).times, [1.0, 1.5, 2.0, 2.5]);
+        assert_eq!(every(&motion, 1e-9).times.len(), MOST);
+        assert_eq!(every(&motion, -1.0).times, [1.0]);
+        assert_eq!(every(&motion, f64::NAN).times, [1.0]);
     }
 
     #[test]

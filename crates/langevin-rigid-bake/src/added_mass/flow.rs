@@ -1,0 +1,155 @@
+//! The six flows around a discretized body, and their energies.
+
+use super::AddedMassError;
+use super::discretize::Discretized;
+use super::layer;
+use super::matrix::{BLOCK, Matrix, Six};
+use super::near::{self, NearPairs, Thickness};
+use super::panels::{Panels, Vec3};
+use super::precondition::Preconditioner;
+use super::report::Cancel;
+use super::solver::{Solution, solve};
+use super::sums::single_layer_energy;
+use super::{assembly, load};
+use crate::progress::Progress;
+
+/// The six flows in the units of the frame.
+pub(super) struct Flow {
+    /// Tensor with the layer as it is, and extrapolated from it.
+    pub(super) layered: [Six; 6],
+    pub(super) tensor: [Six; 6],
+    pub(super) panels: Panels,
+    pub(super) solution: Solution,
+    pub(super) thickness: Thickness,
+    /// sum n·n' / (4 pi r): the volume, if the integrals were exact.
+    pub(super) volume: f64,
+}
+
+impl Flow {
+    pub(super) fn solve(
+        body: &Discretized,
+        progress: &dyn Progress,
+    ) -> Result<Flow, AddedMassError> {
+        let panels = Panels::new(&body.vertices, &body.triangles);
+        let cancel = Cancel::new(progress, "near pairs", 1);
+        cancel.check()?;
+        let mut pairs = NearPairs::find(&panels.panels);
+        let thickness = near::thickness(&panels.panels, &pairs);
+        let mut sums = near::integrate(&panels, &mut pairs, thickness.sheet);
+        cancel.check()?;
+        let cancel = Cancel::new(progress, "matrix", panels.vertices.len().div_ceil(BLOCK));
+        let w = assembly::assemble(&panels, &pairs, &mut sums, &cancel)?;
+        let loads = load::loads(&panels, &sums, &w);
+        let single_layer = single_layer_energy(&panels.panels, &sums);
+        let zero = vec![[0.0; 6]; loads.len()];
+        let system = System {
+            w: &w,
+            loads: &loads,
+            vertices: &panels.vertices,
+            thickness,
+        };
+        let solution = system.solve(zero, &Cancel::new(progress, "potentials", 1))?;
+        let layered = plus(&single_layer, &solution.energy(&loads));
+        let mut tensor = layered;
+        if !body.inserted.is_empty() {
+            let cancel = Cancel::new(progress, "edges", 1);
+            let energy = system.nested_energy(body, &panels, &solution.x, &cancel)?;
+            let q = layer::shrinkage(&panels, &pairs);
+            tensor = extrapolated(&layered, &plus(&single_layer, &energy), q);
+        }
+        let volume = (0..3).map(|k| single_layer[k][k]).sum();
+        Ok(Flow {
+            layered,
+            tensor,
+            panels,
+            solution,
+            thickness,
+            volume,
+        })
+    }
+}
+
+/// W phi = -f.
+struct System<'a> {
+    w: &'a Matrix,
+    loads: &'a [Six],
+    vertices: &'a [Vec3],
+    thickness: Thickness,
+}
+
+impl System<'_> {
+    fn solve(&self, start: Vec<Six>, cancel: &Cancel) -> Result<Solution, AddedMassError> {
+        let preconditioner = Preconditioner::new(self.w, self.vertices, self.thickness.sheet)
+            .ok_or(AddedMassError::Singular {
+                iteration: 0,
+                energy: 0.0,
+            })?;
+        solve(self.w, self.loads, start, &preconditioner, cancel)
+    }
+
+    /// f^t W^-1 f in the space without the edge layer, a subspace: it takes no new integrals.
+    fn nested_energy(
+        &self,
+        body: &Discretized,
+        panels: &Panels,
+        x: &[Six],
+        cancel: &Cancel,
+    ) -> Result<[Six; 6], AddedMassError> {
+        let members = nested_members(body, panels);
+        let kept: Vec<usize> = members.iter().map(|m| m[0].0 as usize).collect();
+        let loads: Vec<Six> = members.iter().map(|m| combined(m, self.loads)).collect();
+        let vertices: Vec<Vec3> = kept.iter().map(|&v| self.vertices[v]).collect();
+        let w = self.w.restricted(&members);
+        let system = System {
+            w: &w,
+            loads: &loads,
+            vertices: &vertices,
+            ..*self
+        };
+        let solution = system.solve(kept.iter().map(|&v| x[v]).collect(), cancel)?;
+        Ok(solution.energy(&loads))
+    }
+}
+
+/// For each vertex that was there before the layer, in the order of the panels: itself, then the
+/// vertices of the layer that interpolate from it, with weights.
+fn nested_members(body: &Discretized, panels: &Panels) -> Vec<Vec<(u32, f64)>> {
+    let unlayered = body.unlayered();
+    let mut place = vec![u32::MAX; unlayered];
+    let mut members: Vec<Vec<(u32, f64)>> = Vec::with_capacity(unlayered);
+    for (v, &origin) in panels.vertex_origin.iter().enumerate() {
+        if let Some(slot) = place.get_mut(origin as usize) {
+            *slot = members.len() as u32;
+            members.push(vec![(v as u32, 1.0)]);
+        }
+    }
+    for (v, &origin) in panels.vertex_origin.iter().enumerate() {
+        if let Some(cut) = (origin as usize).checked_sub(unlayered) {
+            let cut = body.inserted[cut];
+            let weights = [1.0 - cut.fraction, cut.fraction];
+            for (end, weight) in cut.ends.into_iter().zip(weights) {
+                members[place[end as usize] as usize].push((v as u32, weight));
+            }
+        }
+    }
+    members
+}
+
+fn combined(members: &[(u32, f64)], values: &[Six]) -> Six {
+    std::array::from_fn(|c| {
+        members
+            .iter()
+            .map(|&(v, w)| w * values[v as usize][c])
+            .sum()
+    })
+}
+
+/// The limit of the sequence whose defect shrinks by `q` from `before` to `after`.
+fn extrapolated(after: &[Six; 6], before: &[Six; 6], q: f64) -> [Six; 6] {
+    let limit = |a: f64, b: f64| a + (a - b) * q / (1.0 - q);
+    std::array::from_fn(|i| std::array::from_fn(|j| limit(after[i][j], before[i][j])))
+}
+
+fn plus(a: &[Six; 6], b: &[Six; 6]) -> [Six; 6] {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
+}

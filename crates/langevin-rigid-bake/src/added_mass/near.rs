@@ -1,0 +1,246 @@
+//! Pairs of triangles near each other: which they are, and their exact moments.
+
+use rayon::prelude::*;
+
+use super::kernel::{PairMoments, Potential, Rule, own, pair};
+use super::panels::{Panel, Panels, Vec3};
+use super::sums::{RowSums, rotational};
+use crate::mesh::vector::{bounding_box, dot, sub};
+
+/// Squared centroid distance, in longest edges, below which a pair is integrated exactly. Off the
+/// ratios regular meshes have, so that rounding never decides.
+pub(super) const NEAR2: f64 = 2.013 * 2.013;
+/// The same for the finer outer rule.
+const TOUCHING2: f64 = 1.017 * 1.017;
+/// Gap of opposite panels, in longest edges, below which a body counts as a sheet.
+const SHEET_GAP: f64 = 0.3017;
+const GROUP: usize = 32;
+
+/// Near pairs of a mesh, each row sorted, the diagonal included.
+pub(super) struct NearPairs {
+    start: Vec<usize>,
+    columns: Vec<u32>,
+    /// II 1/r of every entry; empty until integrated.
+    values: Vec<f64>,
+}
+
+impl NearPairs {
+    /// Finds the pairs; a row depends on that row alone, and (a, b) is there if (b, a) is.
+    pub(super) fn find(panels: &[Panel]) -> NearPairs {
+        let groups: Vec<Group> = panels.chunks(GROUP).map(Group::new).collect();
+        let rows: Vec<Vec<u32>> = panels
+            .par_iter()
+            .with_min_len(64)
+            .map(|a| near_row(a, panels, &groups))
+            .collect();
+        let mut start = Vec::with_capacity(rows.len() + 1);
+        start.push(0);
+        for row in &rows {
+            start.push(start[start.len() - 1] + row.len());
+        }
+        NearPairs {
+            start,
+            columns: rows.concat(),
+            values: Vec::new(),
+        }
+    }
+
+    /// The panels near panel `a` and the integrals of 1/r with them.
+    pub(super) fn row(&self, a: usize) -> (&[u32], &[f64]) {
+        let range = self.start[a]..self.start[a + 1];
+        (&self.columns[range.clone()], &self.values[range])
+    }
+
+    fn columns(&self, a: usize) -> &[u32] {
+        &self.columns[self.start[a]..self.start[a + 1]]
+    }
+
+    /// The near panels that come after `a`, itself first.
+    fn upper(&self, a: usize) -> &[u32] {
+        let row = self.columns(a);
+        &row[row.partition_point(|&b| (b as usize) < a)..]
+    }
+}
+
+/// A run of panels, for skipping many at once.
+struct Group {
+    bounds: [Vec3; 2],
+    longest2: f64,
+}
+
+impl Group {
+    fn new(panels: &[Panel]) -> Group {
+        let centroids: Vec<Vec3> = panels.iter().map(|p| p.centroid).collect();
+        Group {
+            bounds: bounding_box(&centroids),
+            longest2: panels.iter().fold(0.0, |l, p| l.max(p.longest2)),
+        }
+    }
+
+    fn may_be_near(&self, a: &Panel) -> bool {
+        let [low, high] = self.bounds;
+        let outside: Vec3 = std::array::from_fn(|k| {
+            (low[k] - a.centroid[k])
+                .max(a.centroid[k] - high[k])
+                .max(0.0)
+        });
+        let reach2 = NEAR2 * self.longest2.max(a.longest2);
+        dot(outside, outside) <= reach2 * (1.0 + 1e-12)
+    }
+}
+
+fn near_row(a: &Panel, panels: &[Panel], groups: &[Group]) -> Vec<u32> {
+    let mut row = Vec::with_capacity(96);
+    for (g, group) in groups.iter().enumerate() {
+        if !group.may_be_near(a) {
+            continue;
+        }
+        let first = g * GROUP;
+        let members = panels[first..].iter().take(GROUP).enumerate();
+        row.extend(
+            members
+                .filter(|(_, b)| ratio2(a, b) < NEAR2)
+                .map(|(i, _)| (first + i) as u32),
+        );
+    }
+    row
+}
+
+/// Squared distance over squared longest edge, the same bits for (a, b) and (b, a).
+fn ratio2(a: &Panel, b: &Panel) -> f64 {
+    let d = sub(b.centroid, a.centroid);
+    dot(d, d) / a.longest2.max(b.longest2)
+}
+
+/// What the near pairs say of a body's thickness.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Thickness {
+    /// Whether panels face each other across less than about 0.3 of their longest edge.
+    pub(super) sheet: bool,
+    /// Smallest gap between facing panels over their longest edge; infinite where none face.
+    pub(super) ratio: f64,
+}
+
+/// Looks for panels that face each other across a thin body or a narrow slot.
+pub(super) fn thickness(panels: &[Panel], pairs: &NearPairs) -> Thickness {
+    let of_panel = |(a, panel): (usize, &Panel)| {
+        facing(a, panels, pairs)
+            .map(|f| f.gap / panel.longest2.max(panels[f.panel].longest2).sqrt())
+            .fold(f64::INFINITY, f64::min)
+    };
+    let ratio = panels
+        .par_iter()
+        .enumerate()
+        .map(of_panel)
+        .reduce(|| f64::INFINITY, f64::min);
+    Thickness {
+        sheet: ratio < SHEET_GAP,
+        ratio,
+    }
+}
+
+/// A panel opposite another one.
+pub(super) struct Facing {
+    pub(super) panel: usize,
+    /// Distance of the planes at the centroids.
+    pub(super) gap: f64,
+    /// Whether the body is between the two, rather than fluid.
+    pub(super) through_body: bool,
+}
+
+/// The panels near `a` that look the other way, lie over it and share no vertex with it.
+pub(super) fn facing<'a>(
+    a: usize,
+    panels: &'a [Panel],
+    pairs: &'a NearPairs,
+) -> impl Iterator<Item = Facing> + 'a {
+    let panel = &panels[a];
+    pairs
+        .columns(a)
+        .iter()
+        .map(|&b| b as usize)
+        .filter_map(move |b| {
+            let other = &panels[b];
+            let opposite = dot(panel.normal, other.normal) < -0.517;
+            let apart = !panel.corners.iter().any(|v| other.corners.contains(v));
+            let close = opposite && apart && ratio2(panel, other) < TOUCHING2;
+            if !close || !(panel.covers(other.centroid) || other.covers(panel.centroid)) {
+                return None;
+            }
+            let offset = dot(panel.normal, sub(other.centroid, panel.centroid));
+            let back = dot(other.normal, sub(panel.centroid, other.centroid));
+            let gap = offset.abs().max(back.abs());
+            Some(Facing {
+                panel: b,
+                gap,
+                through_body: offset < 0.0,
+            })
+        })
+}
+
+/// Integrates the near pairs: their values are kept, the sums they add to each row returned.
+pub(super) fn integrate(panels: &Panels, pairs: &mut NearPairs, sheet: bool) -> Vec<RowSums> {
+    let panels = &panels.panels;
+    let potentials: Vec<Potential> = panels.iter().map(Potential::new).collect();
+    let close = if sheet {
+        Rule::twenty_four()
+    } else {
+        Rule::seven()
+    };
+    let middle = Rule::three();
+    let upper_row = |a: usize| {
+        let moments = |&b: &u32| {
+            let b = b as usize;
+            let touching = ratio2(&panels[a], &panels[b]) < TOUCHING2;
+            if b == a {
+                own(&potentials[a], &close)
+            } else {
+                pair(
+                    &potentials[a],
+                    &potentials[b],
+                    if touching { &close } else { &middle },
+                )
+            }
+        };
+        pairs.upper(a).iter().map(moments).collect()
+    };
+    let upper: Vec<Vec<PairMoments>> = (0..panels.len())
+        .into_par_iter()
+        .with_min_len(16)
+        .map(upper_row)
+        .collect();
+    let rows: Vec<(Vec<f64>, RowSums)> = (0..panels.len())
+        .into_par_iter()
+        .with_min_len(64)
+        .map(|a| gather_row(a, panels, pairs, &upper))
+        .collect();
+    pairs.values = rows.iter().flat_map(|(p, _)| p.iter().copied()).collect();
+    rows.into_iter().map(|(_, sums)| sums).collect()
+}
+
+/// The values of row `a`, and what its pairs add to the row's sums, in the order of the columns.
+fn gather_row(
+    a: usize,
+    panels: &[Panel],
+    pairs: &NearPairs,
+    upper: &[Vec<PairMoments>],
+) -> (Vec<f64>, RowSums) {
+    let mut sums = RowSums::default();
+    let values = pairs.columns(a).iter().map(|&b| {
+        let b = b as usize;
+        let moments = if b >= a {
+            upper[a][position(pairs.upper(a), b)]
+        } else {
+            upper[b][position(pairs.upper(b), a)].swapped()
+        };
+        let (from, to) = (&panels[a], &panels[b]);
+        sums.add_near(&moments, to.normal);
+        sums.add_energy(rotational(from.normal, to.normal, &moments.xy));
+        moments.p
+    });
+    (values.collect(), sums)
+}
+
+fn position(row: &[u32], b: usize) -> usize {
+    row.partition_point(|&c| (c as usize) < b)
+}

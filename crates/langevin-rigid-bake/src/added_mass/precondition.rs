@@ -1,0 +1,342 @@
+//! Preconditioners: the diagonal, and for thin bodies an approximate inverse with a coarse space.
+//!
+//! On a thin body the modes that are equal on both faces have energies of the order of the
+//! thickness; the diagonal does not see them. A factorized sparse approximate inverse (L. Kolotilina
+//! and A. Yeremin, 1993) over the neighbours in space, which include the opposite face, does.
+
+use rayon::prelude::*;
+
+use super::matrix::{Matrix, Six};
+use super::panels::Vec3;
+use crate::mesh::vector::{dot, sub};
+
+/// Neighbours in the factorized sparse approximate inverse.
+const NEIGHBOURS: usize = 24;
+/// Order from which fewer products with W pay for the better preconditioner on any body.
+const LARGE: usize = 3000;
+/// Vertices per coarse function, and the most coarse functions.
+const COARSENING: usize = 16;
+const MAX_COARSE: usize = 400;
+
+/// An approximate inverse of W.
+pub(super) enum Preconditioner {
+    /// 1 / W_ii.
+    Diagonal(Vec<f64>),
+    /// G^t G + Q (Q^t W Q)^-1 Q^t.
+    TwoLevel {
+        factor: SparseFactor,
+        coarse: Coarse,
+    },
+}
+
+impl Preconditioner {
+    /// The one for a body with these vertices; `None` where W is not positive.
+    pub(super) fn new(w: &Matrix, vertices: &[Vec3], sheet: bool) -> Option<Preconditioner> {
+        let diagonal = w.diagonal();
+        if !diagonal.iter().all(|&d| d > 0.0) {
+            return None;
+        }
+        let simple = !sheet && vertices.len() < LARGE;
+        if simple || vertices.len() < 4 * NEIGHBOURS {
+            return Some(Preconditioner::Diagonal(
+                diagonal.iter().map(|d| 1.0 / d).collect(),
+            ));
+        }
+        Some(Preconditioner::TwoLevel {
+            factor: SparseFactor::new(w, vertices)?,
+            coarse: Coarse::new(w, vertices)?,
+        })
+    }
+
+    pub(super) fn apply(&self, r: &[Six]) -> Vec<Six> {
+        match self {
+            Preconditioner::Diagonal(inverse) => r
+                .iter()
+                .zip(inverse)
+                .map(|(r, d)| r.map(|v| v * d))
+                .collect(),
+            Preconditioner::TwoLevel { factor, coarse } => {
+                let mut z = factor.apply(r);
+                coarse.add_correction(r, &mut z);
+                z
+            }
+        }
+    }
+}
+
+type SparseRow = Vec<(u32, f64)>;
+
+/// Lower triangular G with G^t G close to the inverse of W.
+pub(super) struct SparseFactor {
+    rows: Vec<SparseRow>,
+    columns: Vec<SparseRow>,
+}
+
+impl SparseFactor {
+    fn new(w: &Matrix, vertices: &[Vec3]) -> Option<SparseFactor> {
+        let rows: Vec<SparseRow> = (0..vertices.len())
+            .into_par_iter()
+            .with_min_len(16)
+            .map(|i| factor_row(w, vertices, i))
+            .collect::<Option<_>>()?;
+        let columns = transposed(&rows, vertices.len());
+        Some(SparseFactor { rows, columns })
+    }
+
+    fn apply(&self, r: &[Six]) -> Vec<Six> {
+        multiply(&self.columns, &multiply(&self.rows, r))
+    }
+}
+
+/// Row i of G: the last column of the inverse of W over i and its earlier neighbours, normalized.
+fn factor_row(w: &Matrix, vertices: &[Vec3], i: usize) -> Option<SparseRow> {
+    let mut members = nearest(vertices, i, NEIGHBOURS);
+    members.retain(|&j| j <= i);
+    members.sort_unstable();
+    let m = members.len();
+    let mut a: Vec<f64> = Vec::with_capacity(m * m);
+    for &row in &members {
+        a.extend(
+            members
+                .iter()
+                .map(|&column| w.get(row.max(column), row.min(column))),
+        );
+    }
+    let factor = Cholesky::new(a, m)?;
+    let mut y = vec![0.0; m];
+    y[m - 1] = 1.0;
+    factor.solve(&mut y);
+    let norm = y[m - 1].sqrt();
+    Some(
+        members
+            .iter()
+            .zip(&y)
+            .map(|(&j, y)| (j as u32, y / norm))
+            .collect(),
+    )
+}
+
+/// The `count` vertices nearest to vertex `i`, itself among them; searched outwards along the
+/// curve on which neighbours in memory are neighbours in space.
+fn nearest(vertices: &[Vec3], i: usize, count: usize) -> Vec<usize> {
+    let distance2 = |j: usize| {
+        let d = sub(vertices[j], vertices[i]);
+        dot(d, d)
+    };
+    let mut found: Vec<(f64, usize)> = vec![(0.0, i)];
+    let mut offer = |j: usize| {
+        let d2 = distance2(j);
+        if found.len() == count {
+            if found[count - 1].0 <= d2 {
+                return;
+            }
+            found.pop();
+        }
+        let place = found.partition_point(|&(other, _)| other <= d2);
+        found.insert(place, (d2, j));
+    };
+    for step in 1..vertices.len() {
+        if i >= step {
+            offer(i - step);
+        }
+        if i + step < vertices.len() {
+            offer(i + step);
+        }
+    }
+    found.into_iter().map(|(_, j)| j).collect()
+}
+
+fn transposed(rows: &[SparseRow], columns: usize) -> Vec<SparseRow> {
+    let mut result = vec![Vec::new(); columns];
+    for (i, row) in rows.iter().enumerate() {
+        for &(j, value) in row {
+            result[j as usize].push((i as u32, value));
+        }
+    }
+    result
+}
+
+fn multiply(rows: &[SparseRow], x: &[Six]) -> Vec<Six> {
+    let product = |row: &SparseRow| {
+        let mut sum = [0.0; 6];
+        for &(j, value) in row {
+            for c in 0..6 {
+                sum[c] += value * x[j as usize][c];
+            }
+        }
+        sum
+    };
+    rows.par_iter().with_min_len(256).map(product).collect()
+}
+
+/// Correction from a space of few smooth functions.
+pub(super) struct Coarse {
+    /// Values of the coarse functions at each vertex.
+    interpolation: Vec<SparseRow>,
+    /// The vertices of each coarse function.
+    members: Vec<SparseRow>,
+    factor: Cholesky,
+}
+
+impl Coarse {
+    fn new(w: &Matrix, vertices: &[Vec3]) -> Option<Coarse> {
+        let seeds = spread_out(vertices, (vertices.len() / COARSENING).min(MAX_COARSE));
+        let interpolation: Vec<SparseRow> = vertices
+            .par_iter()
+            .with_min_len(64)
+            .map(|&v| inverse_distance(v, vertices, &seeds))
+            .collect();
+        let members = transposed(&interpolation, seeds.len());
+        let m = seeds.len();
+        let small = w.restricted(&members);
+        let mut a: Vec<f64> = (0..m * m)
+            .map(|k| 0.5 * (small.get(k / m, k % m) + small.get(k % m, k / m)))
+            .collect();
+        // Constants are among the coarse functions and have no energy: give them the mean one.
+        let mean = (0..m).map(|i| a[i * m + i]).sum::<f64>() / (m * m) as f64;
+        a.iter_mut().for_each(|entry| *entry += mean);
+        Some(Coarse {
+            interpolation,
+            members,
+            factor: Cholesky::new(a, m)?,
+        })
+    }
+
+    fn add_correction(&self, r: &[Six], z: &mut [Six]) {
+        let mut small = multiply(&self.members, r);
+        let mut column = vec![0.0; small.len()];
+        for c in 0..6 {
+            small.iter().zip(&mut column).for_each(|(s, v)| *v = s[c]);
+            self.factor.solve(&mut column);
+            small.iter_mut().zip(&column).for_each(|(s, v)| s[c] = *v);
+        }
+        for (z, add) in z.iter_mut().zip(multiply(&self.interpolation, &small)) {
+            for c in 0..6 {
+                z[c] += add[c];
+            }
+        }
+    }
+}
+
+/// Vertices each of which is the farthest from those before it.
+fn spread_out(vertices: &[Vec3], count: usize) -> Vec<usize> {
+    let mut distance2 = vec![f64::INFINITY; vertices.len()];
+    let mut seeds = vec![0];
+    while seeds.len() < count {
+        let from = vertices[seeds[seeds.len() - 1]];
+        let mut farthest = 0;
+        for (i, v) in vertices.iter().enumerate() {
+            let d = sub(*v, from);
+            distance2[i] = distance2[i].min(dot(d, d));
+            if distance2[i] > distance2[farthest] {
+                farthest = i;
+            }
+        }
+        seeds.push(farthest);
+    }
+    seeds
+}
+
+/// Weights of the four nearest seeds, by the inverse square of the distance.
+fn inverse_distance(v: Vec3, vertices: &[Vec3], seeds: &[usize]) -> SparseRow {
+    let mut best = [(f64::INFINITY, 0u32); 4];
+    for (s, &seed) in seeds.iter().enumerate() {
+        let d = sub(vertices[seed], v);
+        let d2 = dot(d, d);
+        if d2 < best[3].0 {
+            best[3] = (d2, s as u32);
+            for k in (1..4).rev() {
+                if best[k].0 < best[k - 1].0 {
+                    best.swap(k, k - 1);
+                }
+            }
+        }
+    }
+    if best[0].0 == 0.0 {
+        return vec![(best[0].1, 1.0)];
+    }
+    let total: f64 = best.iter().map(|(d2, _)| 1.0 / d2).sum();
+    best.iter()
+        .map(|&(d2, s)| (s, 1.0 / (d2 * total)))
+        .collect()
+}
+
+/// L L^t factorization of a small dense matrix, row by row.
+struct Cholesky {
+    l: Vec<f64>,
+    n: usize,
+}
+
+impl Cholesky {
+    fn new(mut a: Vec<f64>, n: usize) -> Option<Cholesky> {
+        for i in 0..n {
+            let (done, rest) = a.split_at_mut(i * n);
+            let row = &mut rest[..n];
+            for j in 0..i {
+                let other = &done[j * n..];
+                let sum: f64 = row[..j].iter().zip(&other[..j]).map(|(a, b)| a * b).sum();
+                row[j] = (row[j] - sum) / other[j];
+            }
+            let pivot = row[i] - row[..i].iter().map(|v| v * v).sum::<f64>();
+            if pivot.is_nan() || pivot <= 0.0 {
+                return None;
+            }
+            row[i] = pivot.sqrt();
+        }
+        Some(Cholesky { l: a, n })
+    }
+
+    fn solve(&self, b: &mut [f64]) {
+        let n = self.n;
+        for i in 0..n {
+            let row = &self.l[i * n..][..=i];
+            let sum: f64 = row[..i].iter().zip(&*b).map(|(l, x)| l * x).sum();
+            b[i] = (b[i] - sum) / row[i];
+        }
+        for i in (0..n).rev() {
+            let row = &self.l[i * n..][..=i];
+            b[i] /= row[i];
+            let x = b[i];
+            for (b, l) in b[..i].iter_mut().zip(row) {
+                *b -= l * x;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cholesky_solves() {
+        let a = vec![4.0, 2.0, 0.0, 2.0, 5.0, 1.0, 0.0, 1.0, 3.0];
+        let mut b = [8.0, 15.0, 11.0];
+        Cholesky::new(a, 3).unwrap().solve(&mut b);
+        for (got, want) in b.iter().zip([1.0, 2.0, 3.0]) {
+            assert!((got - want).abs() < 1e-15, "{b:?}");
+        }
+        assert!(Cholesky::new(vec![1.0, 2.0, 2.0, 1.0], 2).is_none());
+    }
+
+    #[test]
+    fn nearest_are_the_nearest() {
+        let line: Vec<Vec3> = (0..50).map(|i| [f64::from(i * i), 0.0, 0.0]).collect();
+        let mut found = nearest(&line, 10, 5);
+        found.sort_unstable();
+        assert_eq!(found, [8, 9, 10, 11, 12]);
+    }
+
+    #[test]
+    fn interpolation_weights_sum_to_one_and_are_exact_at_seeds() {
+        let points: Vec<Vec3> = (0..30)
+            .map(|i| [f64::from(i), f64::from(i % 7), 0.0])
+            .collect();
+        let seeds = spread_out(&points, 6);
+        for (i, p) in points.iter().enumerate() {
+            let row = inverse_distance(*p, &points, &seeds);
+            assert!((row.iter().map(|r| r.1).sum::<f64>() - 1.0).abs() < 1e-14);
+            assert_eq!(seeds.contains(&i), row.len() == 1);
+        }
+    }
+}
