@@ -1,12 +1,13 @@
 //! From a mesh to a baked body: mass properties, added mass, characteristic sizes.
 
-use langevin_rigid::linalg::eigen_symmetric;
 use langevin_rigid::{Body, Surface, shift_added_mass};
 
 use crate::added_mass::{AddedMass, AddedMassError, Options, added_mass};
+use crate::extents::{characteristic_thickness, half_extents};
 use crate::mass_properties::{MassError, MassProperties};
 use crate::mesh::TriMesh;
 use crate::progress::Progress;
+use crate::separation::separation;
 
 /// What a body is made of, beside its surface. Absent values follow from the mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -20,7 +21,7 @@ pub struct BodySpec {
     /// Inertia about the centre of mass, axes of the mesh (kg m^2); that of a homogeneous body if
     /// none.
     pub inertia: Option<[[f64; 3]; 3]>,
-    /// Thickness b of Eq. (1) (m); see [`characteristic_thickness`] if none.
+    /// Thickness b of Eq. (1) (m); [`characteristic_thickness`] if none.
     pub thickness: Option<f64>,
     /// Length d of Eq. (1) (m); the largest extent along a principal axis if none.
     pub length: Option<f64>,
@@ -69,6 +70,7 @@ pub fn bake_body(
             .thickness
             .unwrap_or_else(|| characteristic_thickness(mesh, half_extents)),
         length: spec.length.unwrap_or(2.0 * half_extents[0]),
+        separation: separation(mesh, &added),
         surface: Surface {
             vertices: added
                 .surface
@@ -99,148 +101,10 @@ fn mass_properties(mesh: &TriMesh, spec: &BodySpec) -> Result<MassProperties, Bo
     Ok(mass)
 }
 
-/// Thickness b of Eq. (1) for any mesh (m): six volumes over the surface, which is the diameter of a
-/// sphere and the side of a cube, but not more than the smallest extent.
-pub fn characteristic_thickness(mesh: &TriMesh, half_extents: [f64; 3]) -> f64 {
-    (6.0 * mesh.volume() / mesh.surface_area()).min(2.0 * half_extents[2])
-}
-
-/// Principal moments closer than this, relatively, have no axes of their own.
-const DEGENERATE: f64 = 1e-3;
-
-/// Half the extents of a mesh along the principal axes of its volume, descending (m).
-///
-/// Where two or three principal moments agree the axes are arbitrary, and the extent is the mean over
-/// the directions of that plane or of space: a disc has its radius, whichever way it lies.
-pub fn half_extents(mesh: &TriMesh) -> [f64; 3] {
-    let moments = MassProperties::of(mesh, 1.0)
-        .map(|m| m.inertia)
-        .unwrap_or_default();
-    let (inertia, axes) = eigen_symmetric(&moments);
-    let axis = |k: usize| -> [f64; 3] { std::array::from_fn(|i| axes[i][k]) };
-    let same = |i: usize, j: usize| (inertia[i] - inertia[j]).abs() < DEGENERATE * inertia[2];
-    let along = |k: usize| half_width(mesh, axis(k));
-    let mut extents = match (same(0, 1), same(1, 2)) {
-        (true, true) => [mean_half_width(mesh); 3],
-        (true, false) => {
-            let plane = mean_half_width_in_plane(mesh, axis(0), axis(1));
-            [plane, plane, along(2)]
-        }
-        (false, true) => {
-            let plane = mean_half_width_in_plane(mesh, axis(1), axis(2));
-            [along(0), plane, plane]
-        }
-        (false, false) => [along(0), along(1), along(2)],
-    };
-    extents.sort_by(|a, b| b.total_cmp(a));
-    extents
-}
-
-fn half_width(mesh: &TriMesh, direction: [f64; 3]) -> f64 {
-    let heights = mesh
-        .vertices()
-        .iter()
-        .map(|p| (0..3).map(|i| p[i] * direction[i]).sum::<f64>());
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-        (l.min(x), h.max(x))
-    });
-    0.5 * (high - low)
-}
-
-fn mean_half_width_in_plane(mesh: &TriMesh, a: [f64; 3], b: [f64; 3]) -> f64 {
-    const DIRECTIONS: u32 = 64;
-    let width = |n: u32| {
-        let (s, c) = libm::sincos(std::f64::consts::PI * f64::from(n) / f64::from(DIRECTIONS));
-        half_width(mesh, std::array::from_fn(|i| c * a[i] + s * b[i]))
-    };
-    (0..DIRECTIONS).map(width).sum::<f64>() / f64::from(DIRECTIONS)
-}
-
-/// Mean over directions spread evenly on the sphere (a Fibonacci lattice).
-fn mean_half_width(mesh: &TriMesh) -> f64 {
-    const DIRECTIONS: u32 = 256;
-    const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
-    let width = |n: u32| {
-        let y = 1.0 - (f64::from(n) + 0.5) / f64::from(DIRECTIONS);
-        let r = (1.0 - y * y).sqrt();
-        let (s, c) = libm::sincos(GOLDEN_ANGLE * f64::from(n));
-        half_width(mesh, [r * c, y, r * s])
-    };
-    (0..DIRECTIONS).map(width).sum::<f64>() / f64::from(DIRECTIONS)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::shapes::Shape;
-
-    fn assert_extents(shape: Shape, wanted: [f64; 3], tolerance: f64) {
-        let found = half_extents(&shape.mesh(1280).unwrap());
-        for (f, w) in found.iter().zip(wanted) {
-            assert!((f / w - 1.0).abs() < tolerance, "{found:?} for {wanted:?}");
-        }
-    }
-
-    #[test]
-    fn extents_are_the_semi_axes_of_round_bodies() {
-        assert_extents(
-            Shape::Ellipsoid {
-                semi_axes: [1.0, 4.0, 2.0],
-            },
-            [4.0, 2.0, 1.0],
-            0.01,
-        );
-        assert_extents(
-            Shape::Ellipsoid {
-                semi_axes: [2.0; 3],
-            },
-            [2.0; 3],
-            0.01,
-        );
-        let sheet = Shape::EllipticalPlate {
-            semi_axes: [0.04, 0.01],
-            thickness: 1e-4,
-        };
-        assert_extents(sheet, [0.04, 0.01, 5e-5], 0.01);
-        assert_extents(
-            Shape::Disc {
-                radius: 0.1,
-                thickness: 0.01,
-            },
-            [0.1, 0.1, 0.005],
-            0.01,
-        );
-        assert_extents(
-            Shape::Box {
-                size: [3.0, 1.0, 2.0],
-            },
-            [1.5, 1.0, 0.5],
-            1e-9,
-        );
-    }
-
-    #[test]
-    fn thickness_is_that_of_eq_1() {
-        let thickness = |shape: Shape| {
-            let mesh = shape.mesh(1280).unwrap();
-            characteristic_thickness(&mesh, half_extents(&mesh))
-        };
-        assert!((thickness(Shape::Box { size: [1.0; 3] }) - 1.0).abs() < 1e-9);
-        assert!(
-            (thickness(Shape::Box {
-                size: [1.0, 0.01, 2.0]
-            }) - 0.01)
-                .abs()
-                < 1e-9
-        );
-        assert!(
-            (thickness(Shape::Ellipsoid {
-                semi_axes: [1.0; 3]
-            }) - 2.0)
-                .abs()
-                < 0.02
-        );
-    }
 
     #[test]
     fn a_shifted_centre_of_mass_moves_the_frame_with_it() {

@@ -26,6 +26,7 @@ pub(crate) struct Arguments {
 #[derive(Subcommand)]
 pub(crate) enum Command {
     Simulate(Simulate),
+    Ensemble(Ensemble),
     AddedMass(AddedMass),
     Turbulence(Turbulence),
     Bake(Bake),
@@ -59,13 +60,46 @@ pub(crate) struct Simulate {
     /// Time step (s).
     #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) dt: Option<f64>,
-    /// Equations of motion: consistent, published, published-si or kirchhoff.
+    /// Equations of motion: consistent, separated, kirchhoff, published or published-si.
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<Model>,
     /// Source of turbulence: body-driven, wake-age=LENGTHS or history.
     #[arg(long, value_name = "SOURCE")]
     pub(crate) turbulence: Option<TurbulenceSource>,
     /// Print the summary as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Drop the body of a scene many times and write the statistics of its falls.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid ensemble paper-75 --runs 100
+  langevin-rigid ensemble my-coin.toml --runs 150 --seed 7 --json
+
+Each run has its own noise and its own release, scattered as the scene's [scatter] says; both depend
+on the seed and the number of the run alone. The walls and the floor are those of its [tank].
+
+Writes into DIR: landings.csv (one row per run; seconds, metres from the release point),
+statistics.json and scene.toml. Columns against time stop where fewer than half the drops are still
+falling.")]
+pub(crate) struct Ensemble {
+    /// A built-in scene (see `langevin-rigid scenes`) or a scene file.
+    pub(crate) scene: String,
+    /// Number of runs.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) runs: u32,
+    /// Folder for the results [default: out/SCENE-ensemble].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Seed of the noise and of the releases.
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Equations of motion: consistent, separated, published, published-si or kirchhoff.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) model: Option<Model>,
+    /// Print the statistics as JSON.
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -5,6 +5,7 @@ mod arguments;
 mod bake;
 mod bars;
 mod cache;
+mod ensemble;
 mod scenes;
 mod simulate;
 mod summary;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
     let bars = Bars::new();
     let done = match &arguments.command {
         Command::Simulate(options) => simulate::simulate(options, &bars),
+        Command::Ensemble(options) => ensemble::ensemble(options, &bars),
         Command::AddedMass(options) => added_mass::added_mass(options, &bars),
         Command::Turbulence(options) => turbulence::turbulence(options, &bars),
         Command::Bake(options) => bake::bake(options, &bars),

@@ -62,7 +62,12 @@ fn apply(options: &Simulate, scene: &mut Scene) {
     scene.time_step = options.dt.unwrap_or(scene.time_step);
     scene.stop.time = options.duration.or(scene.stop.time);
     scene.settings.turbulence = options.turbulence.unwrap_or(scene.settings.turbulence);
-    if let Some(model) = options.model.filter(|m| *m != scene.settings.model) {
+    set_model(options.model, scene);
+}
+
+/// Another model than the scene's brings the integrator it is meant for.
+pub(crate) fn set_model(model: Option<Model>, scene: &mut Scene) {
+    if let Some(model) = model.filter(|m| *m != scene.settings.model) {
         scene.settings.model = model;
         scene.settings.integrator = match model {
             Model::Published(_) => Integrator::RungeKutta4,
@@ -71,7 +76,7 @@ fn apply(options: &Simulate, scene: &mut Scene) {
     }
 }
 
-fn check_start(scene: &Scene, baked: &Baked, hull: &Hull) -> Result<()> {
+pub(crate) fn check_start(scene: &Scene, baked: &Baked, hull: &Hull) -> Result<()> {
     let Some(ground) = scene.stop.ground else {
         return Ok(());
     };
@@ -173,7 +178,7 @@ fn write_all(
 }
 
 /// The scene as it was run; a mesh is named by its full path so that the file works anywhere.
-fn resolved(scene: &Scene) -> Result<String> {
+pub(crate) fn resolved(scene: &Scene) -> Result<String> {
     let mut scene = scene.clone();
     if let scene::Geometry::Mesh { path, .. } = &mut scene.body.geometry {
         *path = std::path::absolute(&path)?;

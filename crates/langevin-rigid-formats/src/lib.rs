@@ -1,7 +1,8 @@
 //! Files of Langevin Rigid: what comes in (meshes, scenes) and what goes out (bakes, trajectories,
-//! pictures).
+//! ensembles, pictures).
 
 pub mod baking;
+pub mod ensemble;
 pub mod files;
 pub mod mesh;
 pub mod picture;

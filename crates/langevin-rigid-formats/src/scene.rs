@@ -7,6 +7,7 @@
 mod place;
 mod raw;
 mod registry;
+mod separated;
 mod shape;
 
 use std::path::PathBuf;
@@ -21,7 +22,10 @@ use serde_spanned::Spanned;
 use crate::mesh::LengthUnit;
 use place::Document;
 pub use place::SceneError;
-use raw::{Given, RawFluid, RawPicture, RawRelease, RawRun, RawScene, RawTurbulence, given};
+use raw::{
+    Given, RawFluid, RawPicture, RawRelease, RawRun, RawScatter, RawScene, RawTank, RawTurbulence,
+    given,
+};
 pub use registry::{BUILT_IN, BuiltIn, FindError, find};
 
 /// A scene, checked and complete.
@@ -49,6 +53,35 @@ pub struct Scene {
     pub grid: Grid,
     /// Time between two drawings of the body in a picture (s); the picture's choice if none.
     pub picture_interval: Option<f64>,
+    /// How the releases of an ensemble differ from `release`.
+    pub scatter: Scatter,
+    /// Walls and floor around the release point, if any.
+    pub tank: Option<Tank>,
+}
+
+/// Standard deviations of the normal scatter of an ensemble's releases, one draw per run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Scatter {
+    /// Tilt about each of the world's horizontal axes x and z (degrees).
+    pub tilt: f64,
+    /// Each component of the angular velocity, world frame (rad/s).
+    pub spin: f64,
+    /// Each component of the velocity, world frame (m/s).
+    pub velocity: f64,
+}
+
+/// A tank whose water surface is at the height of the release point, which is above its middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tank {
+    /// Width along x, depth of the water, width along z (m).
+    pub size: [f64; 3],
+}
+
+impl Tank {
+    /// Height of the floor for a release at `position` (m).
+    pub fn floor(&self, position: [f64; 3]) -> f64 {
+        position[1] - self.size[1]
+    }
 }
 
 /// Where the body's surface and mass come from.
@@ -136,10 +169,14 @@ impl Scene {
         let raw: RawScene = toml::from_str(text)
             .map_err(|e| doc.error(e.span().unwrap_or(0..0), e.message().to_owned()))?;
         let fluid = fluid(&doc, &raw.fluid)?;
-        let settings = settings(&doc, raw.run.get_ref(), &raw.turbulence)?;
+        let settings = Settings {
+            separated: separated::resolve(&doc, &raw.separated)?,
+            ..settings(&doc, raw.run.get_ref(), &raw.turbulence)?
+        };
         let run = raw.run.get_ref();
-        let stop = stop(&doc, &raw.run)?;
         let release = release(&doc, &raw.release)?;
+        let tank = tank(&doc, raw.tank.as_ref())?;
+        let stop = stop(&doc, &raw.run, tank.map(|t| t.floor(release.position)))?;
         if let (Some(ground), Some(height)) = (&run.ground, stop.ground)
             && release.position[1] <= height
         {
@@ -171,6 +208,8 @@ impl Scene {
                 Some(interval) => Some(doc.positive(interval, "`interval` (s)")?),
                 None => None,
             },
+            scatter: scatter(&doc, &raw.scatter)?,
+            tank,
         })
     }
 
@@ -222,9 +261,18 @@ impl Scene {
                 duration: self.grid.duration.and_then(given),
                 sampling: given(sampling_name(self.grid.sampling).to_owned()),
             },
+            separated: separated::write(&self.settings.separated),
             picture: RawPicture {
                 interval: self.picture_interval.and_then(given),
             },
+            scatter: RawScatter {
+                tilt: given(self.scatter.tilt),
+                spin: given(self.scatter.spin),
+                velocity: given(self.scatter.velocity),
+            },
+            tank: self.tank.map(|tank| RawTank {
+                size: Spanned::new(0..0, tank.size),
+            }),
         })
     }
 }
@@ -313,30 +361,32 @@ fn settings(
         },
         turbulence_length: turbulence.length.as_ref().map(length).transpose()?,
         reynolds: None,
+        ..defaults
     })
 }
 
-fn stop(doc: &Document, run: &Spanned<RawRun>) -> Result<StopAt, SceneError> {
+/// The ground is the tank's floor or `ground`, whichever is higher.
+fn stop(doc: &Document, run: &Spanned<RawRun>, floor: Option<f64>) -> Result<StopAt, SceneError> {
     let raw = run.get_ref();
+    let ground = raw
+        .ground
+        .as_ref()
+        .map(|y| doc.finite(y, "`ground` (m)"))
+        .transpose()?;
     let stop = StopAt {
         time: raw
             .duration
             .as_ref()
             .map(|t| doc.positive(t, "`duration` (s)"))
             .transpose()?,
-        ground: raw
-            .ground
-            .as_ref()
-            .map(|y| doc.finite(y, "`ground` (m)"))
-            .transpose()?,
+        ground: [ground, floor].into_iter().flatten().reduce(f64::max),
     };
     match stop {
         StopAt {
             time: None,
             ground: None,
         } => {
-            let message =
-                "the run would never end: give a `duration` (s), a `ground` (height in m), or both";
+            let message = "the run would never end: give a `duration` (s), a `ground` (height in m), both, or a [tank]";
             Err(doc.error(run.span(), message))
         }
         stop => Ok(stop),
@@ -369,7 +419,9 @@ fn orientation(doc: &Document, raw: &RawRelease) -> Result<[f64; 4], SceneError>
         if let Some(tilt) = &raw.tilt {
             return Err(doc.error(tilt.span(), "give a `tilt` or an `orientation`, not both"));
         }
-        return Ok(q.map(|x| x / length));
+        // What is a unit quaternion to rounding keeps its bits: resolved scenes read back the same.
+        let is_unit = (length - 1.0).abs() < 1e-15;
+        return Ok(if is_unit { q } else { q.map(|x| x / length) });
     }
     let axis = match &raw.tilt_axis {
         None => [0.0, 0.0, 1.0],
@@ -426,6 +478,34 @@ fn grid(doc: &Document, raw: &RawTurbulence) -> Result<Grid, SceneError> {
             }
         })?,
     })
+}
+
+fn scatter(doc: &Document, raw: &RawScatter) -> Result<Scatter, SceneError> {
+    let deviation = |value: &Given<f64>, what: &str| match value {
+        None => Ok(0.0),
+        Some(v) if *v.get_ref() < 0.0 => {
+            let message = format!("{what} is a standard deviation and must not be negative");
+            Err(doc.error(v.span(), message))
+        }
+        Some(v) => doc.finite(v, what),
+    };
+    Ok(Scatter {
+        tilt: deviation(&raw.tilt, "`tilt` (degrees)")?,
+        spin: deviation(&raw.spin, "`spin` (rad/s)")?,
+        velocity: deviation(&raw.velocity, "`velocity` (m/s)")?,
+    })
+}
+
+fn tank(doc: &Document, raw: Option<&RawTank>) -> Result<Option<Tank>, SceneError> {
+    let Some(RawTank { size }) = raw else {
+        return Ok(None);
+    };
+    let what = "`size` (width along x, depth, width along z in m)";
+    let lengths = doc.finite_all(size, what)?;
+    if lengths.iter().any(|&length| length <= 0.0) {
+        return Err(doc.error(size.span(), format!("{what} must be positive numbers")));
+    }
+    Ok(Some(Tank { size: lengths }))
 }
 
 fn sampling_name(sampling: Sampling) -> &'static str {

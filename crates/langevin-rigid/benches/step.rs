@@ -34,6 +34,7 @@ fn ellipsoid() -> Body {
         half_extents: [0.04, 0.02, 0.01],
         thickness: 0.02,
         length: 0.08,
+        separation: Default::default(),
         surface: langevin_rigid::Surface::default(),
     }
 }

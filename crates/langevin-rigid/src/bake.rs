@@ -5,7 +5,7 @@
 //! hash of all before it. The payload is [`Body`], an optional [`TurbulenceHistory`], the error
 //! estimate and the warnings, field by field; lists carry their length (u32) before them.
 
-use crate::body::{Body, BodyError, Surface};
+use crate::body::{Body, BodyError, Separation, Surface};
 use crate::turbulence::TurbulenceHistory;
 
 /// The line ends catch transfers that rewrite text.
@@ -20,7 +20,7 @@ const CHECKSUM: usize = 8;
 /// # use langevin_rigid::{Bake, Body};
 /// # let body = Body { mass: 1.0, inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 /// #     volume: 1.0, centre_of_buoyancy: [0.0; 3], added_mass: [[0.0; 6]; 6],
-/// #     half_extents: [1.0; 3], thickness: 1.0, length: 1.0, surface: Default::default() };
+/// #     half_extents: [1.0; 3], thickness: 1.0, length: 1.0, separation: Default::default(), surface: Default::default() };
 /// let bake = Bake {
 ///     body, history: None, error_estimate: 1e-4, warnings: vec![], fingerprint: [0; 32],
 /// };
@@ -215,6 +215,15 @@ impl Writer {
         self.numbers(&body.centre_of_buoyancy);
         self.numbers(body.added_mass.as_flattened());
         self.numbers(&body.half_extents);
+        let separation = &body.separation;
+        for tensor in [
+            &separation.drag_area,
+            &separation.extents,
+            &separation.stokes_translation,
+            &separation.stokes_rotation,
+        ] {
+            self.numbers(tensor.as_flattened());
+        }
         self.list(&body.surface.vertices);
         self.triangles(&body.surface.triangles);
         self.triangles(&body.surface.panels);
@@ -310,6 +319,12 @@ impl Reader<'_> {
             centre_of_buoyancy: self.numbers()?,
             added_mass: self.matrix()?,
             half_extents: self.numbers()?,
+            separation: Separation {
+                drag_area: self.matrix()?,
+                extents: self.matrix()?,
+                stokes_translation: self.matrix()?,
+                stokes_rotation: self.matrix()?,
+            },
             surface: Surface {
                 vertices: self.list()?,
                 triangles: self.triangles()?,
@@ -358,6 +373,7 @@ mod tests {
             half_extents: [3.0, 2.0, 1.0],
             thickness: 2.0,
             length: 6.0,
+            separation: Default::default(),
             surface: Surface {
                 vertices: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
                 triangles: vec![[0, 1, 2]],

@@ -25,8 +25,23 @@ pub struct Body {
     pub thickness: f64,
     /// Characteristic length d of Eq. (1) (m).
     pub length: f64,
+    /// What separated flow depends on.
+    pub separation: Separation,
     /// The body's surface.
     pub surface: Surface,
+}
+
+/// Tensors of the closure for separated flow, about the centroid of the volume, body axes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Separation {
+    /// Drag areas P: a motion at v is resisted by 1/2 rho (v.P v) along P v (m^2).
+    pub drag_area: Mat3,
+    /// Squared half-extents along the principal axes (m^2).
+    pub extents: Mat3,
+    /// Stokes resistance to translation per dynamic viscosity (m).
+    pub stokes_translation: Mat3,
+    /// Stokes resistance to rotation per dynamic viscosity (m^3).
+    pub stokes_rotation: Mat3,
 }
 
 /// The surface of a body with its potentials of unit motion.

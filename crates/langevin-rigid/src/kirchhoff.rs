@@ -40,13 +40,14 @@ pub(crate) struct Kirchhoff {
     centre_of_buoyancy: Vec3,
 }
 
-/// What changes over one step: rotation vector and displacement since its start, and the angular
-/// impulse about the place where the centre of mass was then (world frame).
+/// What changes over one step, world frame: rotation vector and displacement since its start, the
+/// linear impulse, and the angular impulse about the place where the centre of mass was then.
 #[derive(Clone, Copy)]
 struct Increment {
     theta: Vec3,
     displacement: Vec3,
-    impulse: Vec3,
+    linear: Vec3,
+    angular: Vec3,
 }
 
 impl Increment {
@@ -54,7 +55,8 @@ impl Increment {
         Self {
             theta: add_scaled(self.theta, h, rate.theta),
             displacement: add_scaled(self.displacement, h, rate.displacement),
-            impulse: add_scaled(self.impulse, h, rate.impulse),
+            linear: add_scaled(self.linear, h, rate.linear),
+            angular: add_scaled(self.angular, h, rate.angular),
         }
     }
 }
@@ -98,52 +100,58 @@ impl Kirchhoff {
     }
 
     /// One step by the fourth-order Runge-Kutta-Munthe-Kaas scheme on the rotation group.
-    pub(crate) fn step(&self, motion: &mut Motion, h: f64) {
+    ///
+    /// `load` is a further generalized force about the centre of mass, body frame, from the velocity
+    /// relative to the fluid.
+    pub(crate) fn step(&self, motion: &mut Motion, h: f64, load: impl Fn(&Vec6) -> Vec6) {
         let start = motion.orientation;
         let (p, l) = split(&mul(&self.total, &motion.xi));
-        let impulse = rotate(start, p);
         let at_start = Increment {
             theta: [0.0; 3],
             displacement: [0.0; 3],
-            impulse: rotate(start, l),
+            linear: rotate(start, p),
+            angular: rotate(start, l),
         };
-        let rate = |y: &Increment, t: f64| self.rate(start, y, add_scaled(impulse, t, self.weight));
+        let rate = |y: &Increment| self.rate(start, y, &load);
 
-        let k1 = rate(&at_start, 0.0);
-        let k2 = rate(&at_start.plus(0.5 * h, &k1), 0.5 * h);
-        let k3 = rate(&at_start.plus(0.5 * h, &k2), 0.5 * h);
-        let k4 = rate(&at_start.plus(h, &k3), h);
+        let k1 = rate(&at_start);
+        let k2 = rate(&at_start.plus(0.5 * h, &k1));
+        let k3 = rate(&at_start.plus(0.5 * h, &k2));
+        let k4 = rate(&at_start.plus(h, &k3));
         let end = at_start
             .plus(h / 6.0, &k1)
             .plus(h / 3.0, &k2)
             .plus(h / 3.0, &k3)
             .plus(h / 6.0, &k4);
 
-        let (orientation, xi) = self.motion_of(start, &end, add_scaled(impulse, h, self.weight));
+        let (orientation, xi) = self.motion_of(start, &end);
         motion.orientation = quat_normalize(orientation);
         motion.position = add(motion.position, end.displacement);
         motion.xi = xi;
     }
 
-    /// Orientation and velocity from the increment and the linear impulse (world frame).
-    fn motion_of(&self, start: Quat, y: &Increment, impulse: Vec3) -> (Quat, Vec6) {
+    /// Orientation and velocity after the increment.
+    fn motion_of(&self, start: Quat, y: &Increment) -> (Quat, Vec6) {
         let orientation = quat_mul(start, quat_from_rotation_vector(y.theta));
-        let p = rotate_back(orientation, impulse);
-        let l = rotate_back(orientation, sub(y.impulse, cross(y.displacement, impulse)));
+        let p = rotate_back(orientation, y.linear);
+        let l = rotate_back(orientation, sub(y.angular, cross(y.displacement, y.linear)));
         (orientation, mul(&self.inverse, &join(p, l)))
     }
 
-    fn rate(&self, start: Quat, y: &Increment, impulse: Vec3) -> Increment {
-        let (orientation, xi) = self.motion_of(start, y, impulse);
+    fn rate(&self, start: Quat, y: &Increment, load: &impl Fn(&Vec6) -> Vec6) -> Increment {
+        let (orientation, xi) = self.motion_of(start, y);
         let (v, omega) = split(&xi);
-        let arm = rotate(orientation, self.centre_of_buoyancy);
+        let (force, torque) = split(&load(&xi));
+        let force = add(self.weight, rotate(orientation, force));
+        let torque = add(
+            rotate(orientation, torque),
+            cross(rotate(orientation, self.centre_of_buoyancy), self.buoyancy),
+        );
         Increment {
             theta: rotation_vector_rate(y.theta, omega),
             displacement: rotate(orientation, v),
-            impulse: add(
-                cross(y.displacement, self.weight),
-                cross(arm, self.buoyancy),
-            ),
+            linear: force,
+            angular: add(cross(y.displacement, force), torque),
         }
     }
 }

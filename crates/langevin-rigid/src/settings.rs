@@ -3,6 +3,7 @@
 use crate::fluid::GRAVITY;
 use crate::linalg::Vec3;
 use crate::published::UnitSystem;
+use crate::separated::SeparatedFlow;
 use crate::turbulence::TurbulenceSource;
 
 /// How the equations of motion are read.
@@ -15,6 +16,8 @@ pub enum Model {
     Published(UnitSystem),
     /// No turbulence loads (Weissmann & Pinkall 2012), the paper's Fig. 5(a).
     Kirchhoff,
+    /// Kirchhoff's equations with the closure for separated flow: bodies flutter and tumble.
+    Separated,
 }
 
 /// How a step is taken.
@@ -44,6 +47,8 @@ pub struct Settings {
     pub integrator: Integrator,
     /// Where the turbulence comes from.
     pub turbulence: TurbulenceSource,
+    /// Constants of the model [`Model::Separated`].
+    pub separated: SeparatedFlow,
     /// Gravity, world frame (m/s^2).
     pub gravity: Vec3,
     /// Length l of Eq. (18) for body-driven turbulence (m); the body's own if none.
@@ -58,6 +63,7 @@ impl Default for Settings {
             model: Model::default(),
             integrator: Integrator::default(),
             turbulence: TurbulenceSource::default(),
+            separated: SeparatedFlow::default(),
             gravity: GRAVITY,
             turbulence_length: None,
             reynolds: None,
@@ -86,10 +92,11 @@ impl std::str::FromStr for Model {
             "published" => Ok(Self::Published(UnitSystem::Cgs)),
             "published-si" => Ok(Self::Published(UnitSystem::Si)),
             "kirchhoff" => Ok(Self::Kirchhoff),
+            "separated" => Ok(Self::Separated),
             _ => Err(UnknownName {
                 what: "model",
                 name: name.into(),
-                known: "consistent, published, published-si, kirchhoff",
+                known: "consistent, published, published-si, kirchhoff, separated",
             }),
         }
     }
@@ -102,6 +109,7 @@ impl std::fmt::Display for Model {
             Self::Published(UnitSystem::Cgs) => "published",
             Self::Published(UnitSystem::Si) => "published-si",
             Self::Kirchhoff => "kirchhoff",
+            Self::Separated => "separated",
         })
     }
 }
@@ -169,7 +177,13 @@ mod tests {
 
     #[test]
     fn names_are_read_back_as_written() {
-        for name in ["consistent", "published", "published-si", "kirchhoff"] {
+        for name in [
+            "consistent",
+            "published",
+            "published-si",
+            "kirchhoff",
+            "separated",
+        ] {
             assert_eq!(name.parse::<Model>().unwrap().to_string(), name);
         }
         for name in ["strang", "rk4"] {

@@ -8,6 +8,7 @@ use crate::linalg::{Vec3, Vec6, add, add_scaled, join, mul, norm, rotate_back, s
 use crate::noise::NoiseStream;
 use crate::published::Published;
 use crate::runge_kutta;
+use crate::separated::Closure;
 use crate::settings::{Integrator, Model, Settings};
 use crate::state::State;
 use crate::turbulence::{PreparedSource, TurbulenceHistory, TurbulenceSource, kolmogorov_c0};
@@ -27,7 +28,7 @@ pub const SPEED_LIMIT: f64 = 1e6;
 /// let mut body = Body {
 ///     mass: 0.6, volume, inertia: [[6e-4, 0.0, 0.0], [0.0, 6e-4, 0.0], [0.0, 0.0, 6e-4]],
 ///     centre_of_buoyancy: [0.0; 3], added_mass: [[0.0; 6]; 6], half_extents: [0.05; 3],
-///     thickness: 0.1, length: 0.1, surface: Default::default(),
+///     thickness: 0.1, length: 0.1, separation: Default::default(), surface: Default::default(),
 /// };
 /// for i in 0..3 { body.added_mass[i][i] = 0.5 * volume; }
 ///
@@ -54,6 +55,15 @@ enum Scheme {
     Strang(Option<Box<Langevin>>),
     RungeKutta4(Option<Box<Langevin>>),
     Published(Box<Published>),
+    Separated(Box<Separated>),
+}
+
+/// Kirchhoff's equations with the closure for separated flow, and the turbulence that the body
+/// sheds as noise.
+#[derive(Debug, Clone)]
+struct Separated {
+    closure: Closure,
+    noise: Langevin,
 }
 
 /// Why a body cannot be made ready to step.
@@ -82,6 +92,11 @@ pub enum SetupError {
         "the turbulence source `{0}` samples a precomputed history and there is none; bake the scene with its turbulence, or use `body-driven`"
     )]
     NoHistory(TurbulenceSource),
+    /// The body lacks the tensors that separated flow needs.
+    #[error(
+        "the model `separated` needs the body's extents and drag areas, and this body has none; bake it from its mesh"
+    )]
+    NoSeparation,
     /// The printed equations were asked for with another scheme.
     #[error(
         "the model `published` is defined with the integrator `rk4` only; choose `rk4` or another model"
@@ -149,12 +164,19 @@ impl Stepper {
     pub fn step(&self, state: &mut State, dt: f64, noise: &NoiseStream) -> Result<(), StepError> {
         let mut motion = self.relative_to_fluid(state);
         match &self.scheme {
-            Scheme::Strang(None) => self.kirchhoff.step(&mut motion, dt),
+            Scheme::Strang(None) => self.kirchhoff.step(&mut motion, dt, unloaded),
             Scheme::Strang(Some(langevin)) => {
                 let (first, second) = halves(&noise.normals(state.step));
                 langevin.step(&mut motion.xi, state.time, 0.5 * dt, &first);
-                self.kirchhoff.step(&mut motion, dt);
+                self.kirchhoff.step(&mut motion, dt, unloaded);
                 langevin.step(&mut motion.xi, state.time + 0.5 * dt, 0.5 * dt, &second);
+            }
+            Scheme::Separated(separated) => {
+                let (normals, _) = halves(&noise.normals(state.step));
+                let kick = separated.noise.kick(&motion.xi, state.time, dt, &normals);
+                self.kirchhoff
+                    .step(&mut motion, dt, |xi| separated.closure.load(xi));
+                accumulate(&mut motion.xi, &mul(&self.kirchhoff.inverse, &kick));
             }
             Scheme::RungeKutta4(langevin) => {
                 let (normals, _) = halves(&noise.normals(state.step));
@@ -285,6 +307,16 @@ impl Scheme {
                     Langevin::new(added, &kirchhoff.total, body.rotation_length(), source()?);
                 Some(Box::new(langevin.ok_or(SetupError::TotalMass)?))
             }
+            Model::Separated => {
+                let added = body.added_mass.map(|row| row.map(|a| fluid.density * a));
+                let constants = settings.separated;
+                let source = source()?.with_intensity(constants.turbulence_intensity);
+                let noise = Langevin::new(added, &kirchhoff.total, body.rotation_length(), source);
+                let noise = noise.ok_or(SetupError::TotalMass)?;
+                let closure = Closure::new(body, fluid.density, fluid.viscosity, constants)
+                    .ok_or(SetupError::NoSeparation)?;
+                return Ok(Self::Separated(Box::new(Separated { closure, noise })));
+            }
             Model::Published(_) if settings.integrator != Integrator::RungeKutta4 => {
                 return Err(SetupError::PublishedIntegrator);
             }
@@ -359,6 +391,11 @@ fn halves(normals: &[f64; 12]) -> ([f64; 6], [f64; 6]) {
         std::array::from_fn(|i| normals[i]),
         std::array::from_fn(|i| normals[6 + i]),
     )
+}
+
+/// No load beside gravity and buoyancy.
+fn unloaded(_: &Vec6) -> Vec6 {
+    [0.0; 6]
 }
 
 fn fastest(state: &State) -> f64 {

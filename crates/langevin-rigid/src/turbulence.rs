@@ -178,6 +178,17 @@ impl PreparedSource {
         }
     }
 
+    /// The same source with fluctuations of `intensity` times the speed.
+    pub(crate) fn with_intensity(self, intensity: f64) -> Self {
+        match self {
+            Self::BodyDriven { alpha, beta } => Self::BodyDriven {
+                alpha: alpha * intensity,
+                beta: beta * intensity * intensity.sqrt(),
+            },
+            history @ Self::History { .. } => history,
+        }
+    }
+
     /// Coefficients at `velocity` (relative to the fluid) and `time` since release.
     pub(crate) fn coefficients(&self, velocity: Vec3, time: f64) -> LangevinCoefficients {
         match self {

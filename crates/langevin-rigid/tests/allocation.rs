@@ -14,6 +14,7 @@ fn a_step_allocates_nothing() {
         ("consistent", Integrator::RungeKutta4),
         ("kirchhoff", Integrator::Strang),
         ("published", Integrator::RungeKutta4),
+        ("separated", Integrator::Strang),
     ] {
         for turbulence in ["body-driven", "wake-age=16", "history"] {
             let settings = Settings {

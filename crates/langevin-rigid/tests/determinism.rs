@@ -6,7 +6,9 @@
 mod common;
 
 use common::{chiral, frozen};
-use langevin_rigid::{Fluid, Integrator, NoiseStream, Settings, State, Stepper, TurbulenceSource};
+use langevin_rigid::{
+    Fluid, Integrator, Model, NoiseStream, Settings, State, Stepper, TurbulenceSource,
+};
 
 const WATER: Fluid = Fluid {
     density: 1000.0,
@@ -27,6 +29,14 @@ fn advance(stepper: &Stepper, state: &mut State, noise: NoiseStream, steps: usiz
     for _ in 0..steps {
         stepper.step(state, 2e-3, &noise).unwrap();
     }
+}
+
+fn separated() -> Stepper {
+    let settings = Settings {
+        model: Model::Separated,
+        ..Settings::default()
+    };
+    Stepper::new(&chiral(), &WATER, None, &settings).unwrap()
 }
 
 fn hash(state: &State) -> u64 {
@@ -84,13 +94,13 @@ fn golden_runs() {
         (
             Integrator::Strang,
             TurbulenceSource::default(),
-            0x8380_38EE_FB3A_FBF8,
+            0xCC0A_EDF0_4B92_C701,
         ),
-        (Integrator::Strang, wake, 0x565A_BFAF_675C_3DB4),
+        (Integrator::Strang, wake, 0x7B7E_623C_2F8D_9847),
         (
             Integrator::Strang,
             TurbulenceSource::History,
-            0x6DA6_E9E8_9AC6_A4EA,
+            0xFCE9_AAF7_0CD1_0D86,
         ),
         (
             Integrator::RungeKutta4,
@@ -108,4 +118,12 @@ fn golden_runs() {
         );
         assert_eq!(hash(&state), golden, "{integrator} {turbulence}");
     }
+    let mut state = State::default();
+    advance(
+        &separated(),
+        &mut state,
+        NoiseStream { seed: 7, body: 1 },
+        500,
+    );
+    assert_eq!(hash(&state), 0x0BA3_75E8_DEFD_74E4, "separated");
 }

@@ -24,6 +24,11 @@ pub(super) struct RawScene {
     pub(super) turbulence: RawTurbulence,
     #[serde(default)]
     pub(super) picture: RawPicture,
+    #[serde(default)]
+    pub(super) scatter: RawScatter,
+    pub(super) tank: Option<RawTank>,
+    #[serde(default)]
+    pub(super) separated: RawSeparated,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -99,4 +104,30 @@ pub(super) struct RawTurbulence {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawPicture {
     pub(super) interval: Given<f64>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawScatter {
+    pub(super) tilt: Given<f64>,
+    pub(super) spin: Given<f64>,
+    pub(super) velocity: Given<f64>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawTank {
+    pub(super) size: Spanned<[f64; 3]>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSeparated {
+    pub(super) attachment: Given<f64>,
+    pub(super) broadside_attachment: Given<f64>,
+    pub(super) dynamic_stall: Given<f64>,
+    pub(super) rotational_lift: Given<f64>,
+    pub(super) rotational_damping: Given<f64>,
+    pub(super) turbulence_intensity: Given<f64>,
+    pub(super) attached: Option<bool>,
 }

@@ -1,7 +1,7 @@
 //! Bodies with tensors in closed form.
 #![allow(dead_code, reason = "every test file uses its own share of these")]
 
-use langevin_rigid::{Body, Surface, TurbulenceHistory};
+use langevin_rigid::{Body, Separation, Surface, TurbulenceHistory};
 
 /// Lamb's integrals kappa_i of an ellipsoid, by the midpoint rule in u with L = c^2 (u/(1-u))^2.
 fn kappa(axes: [f64; 3]) -> [f64; 3] {
@@ -53,8 +53,20 @@ pub(crate) fn ellipsoid(axes: [f64; 3], density: f64) -> Body {
         half_extents,
         thickness: 2.0 * half_extents[2],
         length: 2.0 * half_extents[0],
+        separation: separation(axes),
         surface: Surface::default(),
     }
+}
+
+/// Half the silhouette as drag area.
+fn separation(axes: [f64; 3]) -> Separation {
+    let mut tensors = Separation::default();
+    for i in 0..3 {
+        let silhouette = std::f64::consts::PI * axes[(i + 1) % 3] * axes[(i + 2) % 3];
+        tensors.drag_area[i][i] = 0.5 * silhouette;
+        tensors.extents[i][i] = axes[i] * axes[i];
+    }
+    tensors
 }
 
 /// A body with no symmetry at all: every block of its tensors is full.

@@ -1,0 +1,173 @@
+//! `langevin-rigid ensemble`
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Result, bail};
+use langevin_rigid::Hull;
+use langevin_rigid_formats::baking::{self, Baked};
+use langevin_rigid_formats::ensemble::{self, Fall, FallEnding, Statistics, landings_csv};
+use langevin_rigid_formats::files;
+use langevin_rigid_formats::scene::{self, Scene};
+use serde::Serialize;
+
+use crate::arguments::Ensemble;
+use crate::bars::Bars;
+use crate::cache;
+use crate::simulate::{check_start, resolved, set_model};
+
+/// `statistics.json`; SI units.
+#[derive(Debug, Serialize)]
+struct Report {
+    scene: String,
+    version: &'static str,
+    model: String,
+    seed: u64,
+    /// Runs that were asked for.
+    runs: u32,
+    /// Runs that came to an end.
+    done: usize,
+    diverged: usize,
+    #[serde(flatten)]
+    statistics: Statistics,
+    warnings: Vec<String>,
+    bake_cached: bool,
+    seconds: Seconds,
+}
+
+/// Wall-clock time of each stage.
+#[derive(Debug, Default, Serialize)]
+struct Seconds {
+    bake: f64,
+    run: f64,
+}
+
+pub(crate) fn ensemble(options: &Ensemble, bars: &Bars) -> Result<()> {
+    let mut scene = scene::find(&options.scene)?;
+    scene.seed = options.seed.unwrap_or(scene.seed);
+    set_model(options.model, &mut scene);
+    let folder = options
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from("out").join(format!("{}-ensemble", scene.name)));
+
+    let started = Instant::now();
+    let baked = cache::bake(&scene, bars)?;
+    let bake = started.elapsed().as_secs_f64();
+    let body = &baked.bake.body;
+    let stepper = baking::stepper(&scene, &baked.bake)?;
+    check_start(&scene, &baked, &Hull::new(&body.surface.vertices))?;
+
+    let started = Instant::now();
+    let falls = ensemble::run(&scene, body, &stepper, options.runs, bars);
+    let run = started.elapsed().as_secs_f64();
+    bars.clear();
+    if falls.is_empty() {
+        bail!("no run came to an end");
+    }
+    let report = report(options, &scene, &baked, &falls, Seconds { bake, run });
+    write_all(&folder, &scene, &falls, &report)?;
+    tell(options, &folder, &report)?;
+    if report.diverged == falls.len() {
+        bail!(
+            "every run diverged; how is in {}",
+            folder.join("statistics.json").display()
+        );
+    }
+    Ok(())
+}
+
+fn report(
+    options: &Ensemble,
+    scene: &Scene,
+    baked: &Baked,
+    falls: &[Fall],
+    seconds: Seconds,
+) -> Report {
+    let mut warnings = baked.bake.warnings.clone();
+    if falls.len() < options.runs as usize {
+        let (done, asked) = (falls.len(), options.runs);
+        warnings.push(format!(
+            "interrupted: {done} of {asked} runs came to an end; slow ones are missing more often"
+        ));
+    }
+    let mut diverged = 0;
+    for fall in falls {
+        if let FallEnding::Diverged(error) = &fall.ending {
+            diverged += 1;
+            warnings.push(format!("run {} is left out: {error}", fall.run));
+        } else if fall.time == 0.0 {
+            warnings.push(format!(
+                "run {} began on the ground; release it higher",
+                fall.run
+            ));
+        }
+    }
+    Report {
+        scene: scene.name.clone(),
+        version: env!("CARGO_PKG_VERSION"),
+        model: scene.settings.model.to_string(),
+        seed: scene.seed,
+        runs: options.runs,
+        done: falls.len(),
+        diverged,
+        statistics: Statistics::new(falls),
+        warnings,
+        bake_cached: baked.cached,
+        seconds,
+    }
+}
+
+fn write_all(folder: &Path, scene: &Scene, falls: &[Fall], report: &Report) -> Result<()> {
+    files::write(&folder.join("landings.csv"), landings_csv(falls).as_bytes())?;
+    files::write(&folder.join("scene.toml"), resolved(scene)?.as_bytes())?;
+    let json = serde_json::to_string_pretty(report)? + "\n";
+    files::write(&folder.join("statistics.json"), json.as_bytes())?;
+    Ok(())
+}
+
+fn tell(options: &Ensemble, folder: &Path, report: &Report) -> Result<()> {
+    for warning in &report.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let mut out = std::io::stdout().lock();
+    if options.json {
+        writeln!(out, "{}", serde_json::to_string_pretty(report)?)?;
+        return Ok(());
+    }
+    let statistics = &report.statistics;
+    writeln!(
+        out,
+        "{}: {} runs ({}, seed {}), {} landed, {} diverged, in {:.3} s",
+        report.scene,
+        report.done,
+        report.model,
+        report.seed,
+        statistics.landed,
+        report.diverged,
+        report.seconds.run
+    )?;
+    let motions: Vec<String> = statistics
+        .motions
+        .iter()
+        .map(|(motion, count)| format!("{} {count}", motion.name()))
+        .collect();
+    writeln!(out, "  motions: {}", motions.join(", "))?;
+    if let (Some(x), Some(z), Some(distance)) = (
+        statistics.landing_sigma_x,
+        statistics.landing_sigma_z,
+        statistics.median_landing_distance,
+    ) {
+        writeln!(
+            out,
+            "  landing sigma {x:.4} m along x and {z:.4} m along z, median distance {distance:.4} m"
+        )?;
+    }
+    writeln!(
+        out,
+        "  wrote landings.csv, statistics.json and scene.toml to {}",
+        folder.display()
+    )?;
+    Ok(())
+}

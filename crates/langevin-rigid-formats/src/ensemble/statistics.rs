@@ -1,0 +1,156 @@
+//! What the falls of an ensemble have in common.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use langevin_rigid::linalg::Vec3;
+use serde::Serialize;
+
+use super::fall::{Fall, FallEnding, SAMPLES_PER_SECOND};
+use super::motion::Motion;
+
+/// Statistics of an ensemble's falls; falls that diverged are left out of all of them.
+///
+/// Lengths are measured from the scene's release point, depth downwards. Standard deviations are
+/// those of a sample (n - 1), about its mean; one fall has none, and its zero says nothing.
+///
+/// The columns against time are over the falls that are still under way at that time, and stop where
+/// fewer than half are: the last drops in the water are not like all drops.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Times: whole sixtieths of a second (s).
+    pub t: Vec<f64>,
+    /// Falls under way at each time.
+    pub falling: Vec<usize>,
+    /// Mean depth of the centre of mass (m).
+    pub depth_mean: Vec<f64>,
+    /// Standard deviation of the depth (m).
+    pub depth_std: Vec<f64>,
+    /// Standard deviation along x (m).
+    pub x_std: Vec<f64>,
+    /// Standard deviation along z (m).
+    pub z_std: Vec<f64>,
+    /// Falls that reached the ground.
+    pub landed: usize,
+    /// Standard deviation of the landing points along x (m).
+    pub landing_sigma_x: Option<f64>,
+    /// Standard deviation of the landing points along z (m).
+    pub landing_sigma_z: Option<f64>,
+    /// Median horizontal distance of the landing points from the release point (m).
+    pub median_landing_distance: Option<f64>,
+    /// Number of falls of each [`Motion`].
+    pub motions: BTreeMap<Motion, usize>,
+}
+
+impl Statistics {
+    /// Of these falls.
+    pub fn new(falls: &[Fall]) -> Self {
+        let good: Vec<&Fall> = falls
+            .iter()
+            .filter(|f| !matches!(f.ending, FallEnding::Diverged(_)))
+            .collect();
+        let mut motions: BTreeMap<Motion, usize> = Motion::ALL.map(|m| (m, 0)).into();
+        for fall in &good {
+            *motions.entry(fall.motion.motion()).or_default() += 1;
+        }
+        let mut statistics = Self {
+            t: Vec::new(),
+            falling: Vec::new(),
+            depth_mean: Vec::new(),
+            depth_std: Vec::new(),
+            x_std: Vec::new(),
+            z_std: Vec::new(),
+            landed: 0,
+            landing_sigma_x: None,
+            landing_sigma_z: None,
+            median_landing_distance: None,
+            motions,
+        };
+        statistics.follow(&good);
+        statistics.land(&good);
+        statistics
+    }
+
+    fn follow(&mut self, falls: &[&Fall]) {
+        for sample in 0.. {
+            let points: Vec<Vec3> = falls
+                .iter()
+                .filter_map(|f| f.samples.get(sample).copied())
+                .collect();
+            if points.is_empty() || 2 * points.len() < falls.len() {
+                return;
+            }
+            let along = |i: usize| mean_and_deviation(&points, |p| p[i]);
+            let (depth_mean, depth_std) = along(1);
+            self.t.push(sample as f64 / f64::from(SAMPLES_PER_SECOND));
+            self.falling.push(points.len());
+            self.depth_mean.push(depth_mean);
+            self.depth_std.push(depth_std);
+            self.x_std.push(along(0).1);
+            self.z_std.push(along(2).1);
+        }
+    }
+
+    fn land(&mut self, falls: &[&Fall]) {
+        let points: Vec<Vec3> = falls
+            .iter()
+            .filter(|f| f.ending == FallEnding::Ground)
+            .map(|f| f.end)
+            .collect();
+        self.landed = points.len();
+        if points.is_empty() {
+            return;
+        }
+        self.landing_sigma_x = Some(mean_and_deviation(&points, |p| p[0]).1);
+        self.landing_sigma_z = Some(mean_and_deviation(&points, |p| p[2]).1);
+        let distances = points.iter().map(|p| (p[0] * p[0] + p[2] * p[2]).sqrt());
+        self.median_landing_distance = Some(median(distances.collect()));
+    }
+}
+
+/// Mean and standard deviation of a sample that is not empty.
+fn mean_and_deviation(points: &[Vec3], value: impl Fn(&Vec3) -> f64) -> (f64, f64) {
+    let n = points.len() as f64;
+    // Deviations from the first value: equal values have a spread of exactly zero.
+    let first = value(&points[0]);
+    let mean = points.iter().map(|p| value(p) - first).sum::<f64>() / n;
+    let squares: f64 = points
+        .iter()
+        .map(|p| {
+            let deviation = value(p) - first - mean;
+            deviation * deviation
+        })
+        .sum();
+    (first + mean, (squares / (n - 1.0).max(1.0)).sqrt())
+}
+
+/// Of a sample that is not empty.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() % 2 {
+        0 => 0.5 * (values[middle - 1] + values[middle]),
+        _ => values[middle],
+    }
+}
+
+/// The columns of the table of landings.
+const HEADER: &str = "run,t,x,z,depth,ending,motion,turnovers,swings";
+
+/// A table of how each fall ended, in the order of the runs: seconds; metres from the scene's release
+/// point.
+pub fn landings_csv(falls: &[Fall]) -> String {
+    let mut table = format!("{HEADER}\n");
+    for fall in falls {
+        let Fall { run, time, .. } = fall;
+        let [x, depth, z] = fall.end;
+        let (ending, motion) = (fall.ending.name(), fall.motion.motion().name());
+        let (turnovers, swings) = (fall.motion.turnovers(), fall.motion.swings());
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            table,
+            "{run},{time},{x},{z},{depth},{ending},{motion},{turnovers},{swings}"
+        );
+    }
+    table
+}
