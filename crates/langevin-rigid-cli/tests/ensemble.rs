@@ -189,3 +189,28 @@ fn bad_values_are_refused() {
         assert!(complaint.contains(word), "`{word}` is not in: {complaint}");
     }
 }
+
+/// The 10 CZK coin of `scenes/coin.toml` against 18 tracked drops: O. Novotny, autumn-coin, MIT
+/// licence. Mean depth (cm) at 0.2, 0.4 and 0.6 s; scatter and median distance of the landings (cm).
+#[test]
+fn the_coin_sinks_and_lands_as_measured() {
+    let statistics = Place::new().json(&["coin", "--runs", "400"]);
+    let (t, depth) = (column(&statistics, "t"), column(&statistics, "depth_mean"));
+    for (time, measured) in [(0.2, 7.3), (0.4, 16.7), (0.6, 28.2)] {
+        let sample = t.iter().position(|x| (x - time).abs() < 1e-9).unwrap();
+        let depth = 100.0 * depth[sample];
+        assert!(
+            (depth / measured - 1.0).abs() < 0.1,
+            "{depth} cm after {time} s"
+        );
+    }
+    let landings = [
+        ("landing_sigma_x", 11.3),
+        ("landing_sigma_z", 8.4),
+        ("median_landing_distance", 15.1),
+    ];
+    for (key, measured) in landings {
+        let found = 100.0 * statistics[key].as_f64().unwrap();
+        assert!((found / measured - 1.0).abs() < 0.25, "{key}: {found} cm");
+    }
+}
