@@ -109,6 +109,27 @@ pub fn rotate_back(q: Quat, a: Vec3) -> Vec3 {
     rotate([-q[0], -q[1], -q[2], q[3]], a)
 }
 
+/// The matrix of a unit quaternion: its columns are the body's axes in the world.
+pub fn rotation_matrix([x, y, z, w]: Quat) -> Mat3 {
+    [
+        [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - w * z),
+            2.0 * (x * z + w * y),
+        ],
+        [
+            2.0 * (x * y + w * z),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - w * x),
+        ],
+        [
+            2.0 * (x * z - w * y),
+            2.0 * (y * z + w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ],
+    ]
+}
+
 /// The quaternion of a rotation vector (axis times angle, rad).
 pub fn quat_from_rotation_vector(theta: Vec3) -> Quat {
     let (s, c) = half_angle_sinc_cos(dot(theta, theta));
@@ -304,6 +325,8 @@ mod tests {
         let q = quat_from_rotation_vector([0.0, std::f64::consts::FRAC_PI_2, 0.0]);
         let r = rotate(q, [1.0, 0.0, 0.0]);
         assert!((r[2] + 1.0).abs() < 1e-15 && r[0].abs() < 1e-15);
+        let by_matrix = mat_vec(&rotation_matrix(q), [1.0, 0.0, 0.0]);
+        assert!(norm(sub(by_matrix, r)) < 1e-15);
         let back = rotate_back(q, r);
         assert!((back[0] - 1.0).abs() < 1e-15);
     }

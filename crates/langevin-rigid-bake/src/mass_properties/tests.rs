@@ -12,26 +12,9 @@ fn rotated(m: [[f64; 3]; 3], r: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| dot(r[i], mat_vec(&m, r[j]))))
 }
 
-fn rotation([w, x, y, z]: [f64; 4]) -> [[f64; 3]; 3] {
-    let n = 1.0 / (w * w + x * x + y * y + z * z).sqrt();
-    let [w, x, y, z] = [w * n, x * n, y * n, z * n];
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-        ],
-        [
-            2.0 * (x * y + w * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - w * x),
-        ],
-        [
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
+fn rotation(q: [f64; 4]) -> [[f64; 3]; 3] {
+    let n = 1.0 / q.iter().map(|c| c * c).sum::<f64>().sqrt();
+    langevin_rigid::linalg::rotation_matrix(q.map(|c| c * n))
 }
 
 #[test]

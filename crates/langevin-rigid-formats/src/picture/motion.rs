@@ -1,5 +1,7 @@
 //! The motion to draw: checked poses, and the placement of the body at any time between them.
 
+use langevin_rigid::linalg::rotation_matrix;
+
 use super::vector::{Mat3, Vec3, add, mul_vec, scale, sub};
 use super::{PictureError, Pose};
 
@@ -64,7 +66,7 @@ impl<'a> Motion<'a> {
         };
         Placement {
             position: add(a.position, scale(w, sub(b.position, a.position))),
-            rotation: rotation(blend(a.orientation, b.orientation, w)),
+            rotation: rotation_matrix(blend(a.orientation, b.orientation, w)),
         }
     }
 }
@@ -94,26 +96,6 @@ fn blend(a: [f64; 4], b: [f64; 4], w: f64) -> [f64; 4] {
 fn unit(q: [f64; 4]) -> [f64; 4] {
     let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
     q.map(|c| c / norm)
-}
-
-fn rotation([x, y, z, w]: [f64; 4]) -> Mat3 {
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - z * w),
-            2.0 * (x * z + y * w),
-        ],
-        [
-            2.0 * (x * y + z * w),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - x * w),
-        ],
-        [
-            2.0 * (x * z - y * w),
-            2.0 * (y * z + x * w),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use super::super::{ParseError, Place};
 use super::document::{Document, Node};
 use super::get;
+use langevin_rigid::linalg::rotation_matrix;
 
 /// An affine map x → linear · x + translation, the rows of `linear` first to third.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +26,7 @@ impl Transform {
                 translation: [m[12], m[13], m[14]],
             };
         }
-        let rotation = rotation(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
+        let rotation = rotation_matrix(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
         let scale = node.scale.unwrap_or([1.0; 3]);
         Transform {
             linear: rotation.map(|row| [0, 1, 2].map(|j| row[j] * scale[j])),
@@ -59,27 +60,6 @@ impl Transform {
             + a[2] * (b[0] * c[1] - b[1] * c[0]);
         det < 0.0
     }
-}
-
-/// Rotation matrix of a unit quaternion x, y, z, w.
-fn rotation([x, y, z, w]: [f64; 4]) -> [[f64; 3]; 3] {
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-        ],
-        [
-            2.0 * (x * y + w * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - w * x),
-        ],
-        [
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
 }
 
 /// The meshes of the default scene with the maps of their nodes to the world.
