@@ -10,6 +10,7 @@ use langevin_rigid::{
     Ending, Hull, Integrator, Model, NoiseStream, State, StepError, Stepper, run,
 };
 use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_formats::advance::advance;
 use langevin_rigid_formats::baking::{self, Baked};
 use langevin_rigid_formats::picture::{PictureOptions, Pose, Subject, trajectory_picture};
 use langevin_rigid_formats::scene::{self, Scene};
@@ -111,10 +112,9 @@ fn drop_body(
     let mut state = scene.release;
     let mut states = vec![state];
     let ended = run(
-        stepper,
+        |state| advance(scene, stepper, state, &noise),
         &mut state,
         scene.time_step,
-        &noise,
         hull,
         &scene.stop,
         |state| {

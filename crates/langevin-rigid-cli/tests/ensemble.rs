@@ -191,18 +191,20 @@ fn bad_values_are_refused() {
 }
 
 /// The 10 CZK coin of `scenes/coin.toml` against 18 tracked drops: O. Novotny, autumn-coin, MIT
-/// licence. Mean depth (cm) at 0.2, 0.4 and 0.6 s; scatter and median distance of the landings (cm).
+/// licence. Mean depth and spread in x (cm) at 0.2, 0.4 and 0.6 s; scatter and median distance of the
+/// landings (cm).
 #[test]
 fn the_coin_sinks_and_lands_as_measured() {
     let statistics = Place::new().json(&["coin", "--runs", "400"]);
-    let (t, depth) = (column(&statistics, "t"), column(&statistics, "depth_mean"));
-    for (time, measured) in [(0.2, 7.3), (0.4, 16.7), (0.6, 28.2)] {
+    let t = column(&statistics, "t");
+    let (depth, spread) = (column(&statistics, "depth_mean"), column(&statistics, "x_std"));
+    for (time, deep, wide) in [(0.2, 7.3, 0.97), (0.4, 16.7, 1.74), (0.6, 28.2, 5.66)] {
         let sample = t.iter().position(|x| (x - time).abs() < 1e-9).unwrap();
-        let depth = 100.0 * depth[sample];
-        assert!(
-            (depth / measured - 1.0).abs() < 0.1,
-            "{depth} cm after {time} s"
-        );
+        for (found, measured, tolerance) in [(depth[sample], deep, 0.1), (spread[sample], wide, 0.35)]
+        {
+            let error = 100.0 * found / measured - 1.0;
+            assert!(error.abs() < tolerance, "{found} m after {time} s");
+        }
     }
     let landings = [
         ("landing_sigma_x", 11.3),

@@ -9,7 +9,6 @@ mod fall;
 mod motion;
 mod scatter;
 mod statistics;
-mod walls;
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -29,9 +28,7 @@ pub use statistics::{Statistics, landings_csv};
 /// [`scattered_release`]. The falls come in the order of their runs, with the same bits on any
 /// number of threads. Of work that `progress` cancels, the falls that are complete are given.
 ///
-/// A tank's walls hold the centre of mass: where it would pass one it stays at it, and loses the
-/// component of its velocity into the wall. The floor ends a fall when the body's lowest point
-/// touches it.
+/// The floor of a tank ends a fall when the body's lowest point touches it.
 ///
 /// ```
 /// use langevin_rigid_formats::{baking, ensemble, scene::Scene};

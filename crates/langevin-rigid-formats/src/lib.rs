@@ -1,6 +1,7 @@
 //! Files of Langevin Rigid: what comes in (meshes, scenes) and what goes out (bakes, trajectories,
 //! ensembles, pictures).
 
+pub mod advance;
 pub mod baking;
 pub mod ensemble;
 pub mod files;

@@ -41,6 +41,9 @@ pub struct Scene {
     pub body: BodySource,
     /// Pose and velocities at release.
     pub release: State,
+    /// How long the body is carried along at its release velocity before it is let go (s): fingers
+    /// that follow it, a gripper that opens late.
+    pub carried: f64,
     /// Model, integrator, turbulence source and gravity.
     pub settings: Settings,
     /// Time step (s).
@@ -192,6 +195,7 @@ impl Scene {
             fluid,
             body: shape::resolve(&doc, &raw.body)?,
             release,
+            carried: carried(&doc, &raw.release)?,
             settings,
             time_step: match &run.time_step {
                 Some(dt) => doc.positive(dt, "`time_step` (s)")?,
@@ -237,6 +241,7 @@ impl Scene {
                 orientation: given(orientation),
                 velocity: given(self.release.world_velocity()),
                 angular_velocity: given(self.release.world_angular_velocity()),
+                carried: given(self.carried),
                 ..RawRelease::default()
             },
             run: Spanned::new(
@@ -404,6 +409,17 @@ fn release(doc: &Document, raw: &RawRelease) -> Result<State, SceneError> {
         vector(doc, &raw.angular_velocity, "`angular_velocity` (rad/s)")?,
     );
     Ok(state)
+}
+
+fn carried(doc: &Document, raw: &RawRelease) -> Result<f64, SceneError> {
+    match &raw.carried {
+        None => Ok(0.0),
+        Some(t) if *t.get_ref() < 0.0 => Err(doc.error(
+            t.span(),
+            "`carried` (s) is a duration and must not be negative",
+        )),
+        Some(t) => doc.finite(t, "`carried` (s)"),
+    }
 }
 
 fn orientation(doc: &Document, raw: &RawRelease) -> Result<[f64; 4], SceneError> {

@@ -3,9 +3,8 @@
 use std::ops::ControlFlow;
 
 use crate::linalg::{Vec3, dot, norm, rotate_back};
-use crate::noise::NoiseStream;
 use crate::state::State;
-use crate::stepper::{StepError, Stepper};
+use crate::stepper::StepError;
 
 /// When a run ends: whichever comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -61,17 +60,18 @@ impl Hull {
     }
 }
 
-/// Steps `state` by `dt` (s) until `stop`, showing each new state to `observe`.
+/// Advances `state` by steps of `dt` (s) until `stop`, showing each new state to `observe`.
+///
+/// `advance` takes one step: [`Stepper::step`](crate::Stepper::step), and whatever else the body meets.
 ///
 /// A run that starts at or below the ground ends at once.
 ///
 /// # Errors
 /// [`StepError`], with `state` and all that was observed kept.
 pub fn run(
-    stepper: &Stepper,
+    mut advance: impl FnMut(&mut State) -> Result<(), StepError>,
     state: &mut State,
     dt: f64,
-    noise: &NoiseStream,
     hull: &Hull,
     stop: &StopAt,
     mut observe: impl FnMut(&State) -> ControlFlow<()>,
@@ -87,7 +87,7 @@ pub fn run(
         if stop.time.is_some_and(|end| state.time > end - 0.5 * dt) {
             return Ok(Ending::Time);
         }
-        stepper.step(state, dt, noise)?;
+        advance(state)?;
         if observe(state).is_break() {
             return Ok(Ending::Stopped);
         }

@@ -9,14 +9,15 @@ use crate::turbulence::TurbulenceSource;
 /// How the equations of motion are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Model {
-    /// Kirchhoff's equations with Langevin loads through the added mass: dimensionally sound.
-    #[default]
+    /// Kirchhoff's equations with Langevin loads through the added mass: the paper's method,
+    /// dimensionally sound.
     Consistent,
     /// Eqs. (11) and (12) of Xie & Miyata (2014) to the letter, in the named system of units.
     Published(UnitSystem),
     /// No turbulence loads (Weissmann & Pinkall 2012), the paper's Fig. 5(a).
     Kirchhoff,
     /// Kirchhoff's equations with the closure for separated flow: bodies flutter and tumble.
+    #[default]
     Separated,
 }
 

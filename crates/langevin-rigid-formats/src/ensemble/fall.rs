@@ -5,7 +5,7 @@ use langevin_rigid::{Hull, NoiseStream, State, StepError, Stepper};
 
 use super::motion::MotionTracker;
 use super::scatter::scattered_release;
-use super::walls;
+use crate::advance::advance;
 use crate::scene::Scene;
 
 /// Positions are kept at whole multiples of a sixtieth of a second.
@@ -79,7 +79,7 @@ impl Setup<'_> {
                 return None;
             }
             let before = state;
-            match self.step(&mut state, &noise) {
+            match advance(self.scene, self.stepper, &mut state, &noise) {
                 Ok(()) => {}
                 Err(error) => break FallEnding::Diverged(error),
             }
@@ -107,14 +107,6 @@ impl Setup<'_> {
         } else {
             None
         }
-    }
-
-    fn step(&self, state: &mut State, noise: &NoiseStream) -> Result<(), StepError> {
-        self.stepper.step(state, self.scene.time_step, noise)?;
-        if let Some(tank) = &self.scene.tank {
-            walls::hold(tank, self.scene.release.position, state);
-        }
-        Ok(())
     }
 
     /// Adds the positions due between two states, on the line between them.

@@ -73,6 +73,7 @@ pub(super) struct RawRelease {
     pub(super) orientation: Given<[f64; 4]>,
     pub(super) velocity: Given<[f64; 3]>,
     pub(super) angular_velocity: Given<[f64; 3]>,
+    pub(super) carried: Given<f64>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
