@@ -1,12 +1,13 @@
 //! Tensors of the closure for separated flow, baked from the shape and its surface potentials.
 //!
 //! [`separation`] is the entry: drag areas from a surface-pressure model ([`pressure_drag`]),
-//! extents, and the Stokes resistance of the ellipsoid with the body's half-extents
+//! extents, the slices of a long body ([`parts`]), and the Stokes resistance of the ellipsoid with the body's half-extents
 //! ([`stokes_translation`], [`stokes_rotation`]). Friction in a boundary layer depends on the
 //! Reynolds number and is in none of them.
 
 mod carlson;
 mod panels;
+mod parts;
 mod pressure;
 mod stokes;
 
@@ -19,6 +20,7 @@ use crate::extents::principal_extents;
 use crate::mesh::TriMesh;
 use panels::Panels;
 
+pub use parts::parts;
 pub use pressure::PressureDrag;
 pub use stokes::{stokes_rotation, stokes_translation};
 

@@ -9,6 +9,7 @@ mod airplane;
 mod builder;
 mod cuboid;
 mod ellipsoid;
+mod lofted;
 mod round;
 
 use crate::mesh::{MeshError, TriMesh};
@@ -91,6 +92,37 @@ pub enum Shape {
         /// Side of the square sheet.
         side: f64,
         /// Thickness of the paper.
+        thickness: f64,
+    },
+    /// A broad leaf along X, pointed at both ends; edges and ends bend up along Y by about a tenth of
+    /// the width and 7 % of the length, and the blade is twisted by 14 degrees from end to end.
+    ///
+    /// Counts of this and the next two: 2 m n for n stations of 2 m points, at least 64.
+    Leaf {
+        /// From stalk to tip.
+        length: f64,
+        /// Greatest width along Z.
+        width: f64,
+        /// Thickness of the blade.
+        thickness: f64,
+    },
+    /// A feather along X: quill at the -X end, a vane that is wider on one side of the shaft, and a
+    /// tip that bends up.
+    Feather {
+        /// From quill to tip.
+        length: f64,
+        /// Width of the vane along Z.
+        width: f64,
+        /// Thickness half way; the quill has twice it, the tip half.
+        thickness: f64,
+    },
+    /// A maple seed along X: nut at the -X end, a wing with a straight thick leading edge at +Z.
+    Samara {
+        /// From nut to tip.
+        length: f64,
+        /// Width of the wing along Z; the nut is 0.6 of it wide and 0.32 of it thick.
+        width: f64,
+        /// Thickness of the wing.
         thickness: f64,
     },
 }
@@ -199,6 +231,21 @@ impl Shape {
                 triangles,
             ),
             Shape::PaperAirplane { side, thickness } => airplane::mesh(side, thickness, triangles),
+            Shape::Leaf {
+                length,
+                width,
+                thickness,
+            } => lofted::leaf([length, width, thickness], triangles),
+            Shape::Feather {
+                length,
+                width,
+                thickness,
+            } => lofted::feather([length, width, thickness], triangles),
+            Shape::Samara {
+                length,
+                width,
+                thickness,
+            } => lofted::samara([length, width, thickness], triangles),
         }
     }
 }

@@ -35,6 +35,7 @@ fn ellipsoid() -> Body {
         thickness: 0.02,
         length: 0.08,
         separation: Default::default(),
+        parts: vec![],
         surface: langevin_rigid::Surface::default(),
     }
 }

@@ -5,12 +5,12 @@
 //! hash of all before it. The payload is [`Body`], an optional [`TurbulenceHistory`], the error
 //! estimate and the warnings, field by field; lists carry their length (u32) before them.
 
-use crate::body::{Body, BodyError, Separation, Surface};
+use crate::body::{Body, BodyError, Part, Separation, Surface};
 use crate::turbulence::TurbulenceHistory;
 
 /// The line ends catch transfers that rewrite text.
 const MAGIC: [u8; 8] = *b"LRBAKE\r\n";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER: usize = 8 + 4 + 8 + 32;
 const CHECKSUM: usize = 8;
 
@@ -20,7 +20,8 @@ const CHECKSUM: usize = 8;
 /// # use langevin_rigid::{Bake, Body};
 /// # let body = Body { mass: 1.0, inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 /// #     volume: 1.0, centre_of_buoyancy: [0.0; 3], added_mass: [[0.0; 6]; 6],
-/// #     half_extents: [1.0; 3], thickness: 1.0, length: 1.0, separation: Default::default(), surface: Default::default() };
+/// #     half_extents: [1.0; 3], thickness: 1.0, length: 1.0, separation: Default::default(),
+/// #     parts: vec![], surface: Default::default() };
 /// let bake = Bake {
 ///     body, history: None, error_estimate: 1e-4, warnings: vec![], fingerprint: [0; 32],
 /// };
@@ -224,10 +225,26 @@ impl Writer {
         ] {
             self.numbers(tensor.as_flattened());
         }
+        self.parts(&body.parts);
         self.list(&body.surface.vertices);
         self.triangles(&body.surface.triangles);
         self.triangles(&body.surface.panels);
         self.list(&body.surface.potentials);
+    }
+
+    fn parts(&mut self, parts: &[Part]) {
+        self.count(parts.len());
+        for part in parts {
+            self.numbers(&part.centre);
+            for tensor in [
+                &part.translation,
+                &part.rotation,
+                &part.drag_area,
+                &part.extents,
+            ] {
+                self.numbers(tensor.as_flattened());
+            }
+        }
     }
 
     fn history(&mut self, history: Option<&TurbulenceHistory>) {
@@ -241,6 +258,9 @@ impl Writer {
 }
 
 struct Reader<'a>(&'a [u8]);
+
+/// Bytes of a part: a point and four tensors.
+const PART: usize = 8 * (3 + 4 * 9);
 
 const SHORT: BakeError = BakeError::Contents("it ends within a field");
 
@@ -325,12 +345,23 @@ impl Reader<'_> {
                 stokes_translation: self.matrix()?,
                 stokes_rotation: self.matrix()?,
             },
+            parts: self.items(PART, Self::part)?,
             surface: Surface {
                 vertices: self.list()?,
                 triangles: self.triangles()?,
                 panels: self.triangles()?,
                 potentials: self.list()?,
             },
+        })
+    }
+
+    fn part(&mut self) -> Result<Part, BakeError> {
+        Ok(Part {
+            centre: self.numbers()?,
+            translation: self.matrix()?,
+            rotation: self.matrix()?,
+            drag_area: self.matrix()?,
+            extents: self.matrix()?,
         })
     }
 
@@ -374,6 +405,10 @@ mod tests {
             thickness: 2.0,
             length: 6.0,
             separation: Default::default(),
+            parts: vec![Part {
+                centre: [0.1, 0.2, 0.3],
+                ..Part::default()
+            }],
             surface: Surface {
                 vertices: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
                 triangles: vec![[0, 1, 2]],

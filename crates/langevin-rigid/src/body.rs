@@ -27,6 +27,8 @@ pub struct Body {
     pub length: f64,
     /// What separated flow depends on.
     pub separation: Separation,
+    /// Slices along a long body, each with its own loads; none if the body moves as one.
+    pub parts: Vec<Part>,
     /// The body's surface.
     pub surface: Surface,
 }
@@ -42,6 +44,21 @@ pub struct Separation {
     pub stokes_translation: Mat3,
     /// Stokes resistance to rotation per dynamic viscosity (m^3).
     pub stokes_rotation: Mat3,
+}
+
+/// A slice of a long body, in body axes: what the closure for separated flow needs of it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Part {
+    /// Where its loads act, from the centre of mass (m).
+    pub centre: Vec3,
+    /// Its share of the translational added mass per unit fluid density (m^3).
+    pub translation: Mat3,
+    /// Its share of the rotational added mass per unit fluid density, about `centre` (m^5).
+    pub rotation: Mat3,
+    /// Drag areas P (m^2).
+    pub drag_area: Mat3,
+    /// Squared half-extents: its own across the body, the body's along it (m^2).
+    pub extents: Mat3,
 }
 
 /// The surface of a body with its potentials of unit motion.

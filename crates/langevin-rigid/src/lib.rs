@@ -31,7 +31,7 @@ mod stepper;
 pub mod turbulence;
 
 pub use bake::{Bake, BakeError};
-pub use body::{Body, BodyError, Separation, Surface, shift_added_mass};
+pub use body::{Body, BodyError, Part, Separation, Surface, shift_added_mass};
 pub use fluid::{Fluid, GRAVITY};
 pub use noise::{NORMALS_PER_STEP, NoiseStream};
 pub use published::UnitSystem;

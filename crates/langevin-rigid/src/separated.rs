@@ -8,9 +8,9 @@
 //! a tensor. Everything is written with the structure of the added-mass tensor, so it holds for
 //! bodies of any shape and needs no panels.
 
-use crate::body::{Body, shift_added_mass};
+use crate::body::{Body, Part, shift_added_mass};
 use crate::linalg::{
-    Mat3, Vec3, Vec6, add, add_scaled, cholesky, cross, dot, eigen_symmetric, join, mat_vec, norm,
+    Mat3, Vec3, Vec6, add, cholesky, cross, dot, eigen_symmetric, join, mat_vec, norm,
     scale, split,
 };
 
@@ -60,27 +60,11 @@ const NEGLIGIBLE: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub(crate) struct Closure {
     constants: SeparatedFlow,
-    density: f64,
-    viscosity: f64,
+    parts: Vec<PartClosure>,
     /// Hydrodynamic centre: the centroid of the volume, from the centre of mass (m).
     centre: Vec3,
-    /// A11 - mu 1, mu the least eigenvalue of A11 (kg).
-    directed: Mat3,
-    /// lam - mu and lam, lam the largest eigenvalue of A11 (kg).
-    spread: f64,
-    largest: f64,
-    /// tr(A11) 1 - A11 (kg).
-    circulation: Mat3,
-    /// A22 about the hydrodynamic centre (kg m^2).
-    rotation: Mat3,
-    /// Drag areas P (m^2).
-    drag_area: Mat3,
-    /// Squared half-extents (m^2).
-    extents: Mat3,
-    /// Stokes resistance to translation and rotation per dynamic viscosity (m, m^3).
+    /// Stokes resistance to translation and rotation about the centroid (kg/s, kg m^2/s).
     stokes: [Mat3; 2],
-    /// Second-largest half-extent L (m).
-    length: f64,
 }
 
 impl Closure {
@@ -92,30 +76,20 @@ impl Closure {
         constants: SeparatedFlow,
     ) -> Option<Self> {
         cholesky(&body.separation.extents)?;
-        let about_centre = shift_added_mass(&body.added_mass, body.centre_of_buoyancy);
-        let block = |k: usize| -> Mat3 {
-            std::array::from_fn(|i| std::array::from_fn(|j| density * about_centre[k + i][k + j]))
-        };
-        let translation = block(0);
-        let ([mu, _, lam], _) = eigen_symmetric(&translation);
-        let trace = translation[0][0] + translation[1][1] + translation[2][2];
+        let part = |part: &Part| PartClosure::new(part, body, density);
+        let stokes = [
+            body.separation.stokes_translation,
+            body.separation.stokes_rotation,
+        ];
         Some(Self {
             constants,
-            density,
-            viscosity,
+            parts: if body.parts.is_empty() {
+                vec![part(&whole(body))]
+            } else {
+                body.parts.iter().map(part).collect()
+            },
             centre: body.centre_of_buoyancy,
-            directed: shifted(&translation, 1.0, -mu),
-            spread: lam - mu,
-            largest: lam,
-            circulation: shifted(&translation, -1.0, trace),
-            rotation: block(3),
-            drag_area: body.separation.drag_area,
-            extents: body.separation.extents,
-            stokes: [
-                body.separation.stokes_translation,
-                body.separation.stokes_rotation,
-            ],
-            length: body.half_extents[1],
+            stokes: stokes.map(|tensor| scaled(density * viscosity, &tensor)),
         })
     }
 
@@ -124,30 +98,137 @@ impl Closure {
     ///
     /// It never feeds energy: its power is negative or zero in every state.
     pub(crate) fn load(&self, xi: &Vec6) -> Vec6 {
-        let (v_mass, omega) = split(xi);
-        let v = add(v_mass, cross(omega, self.centre));
-        let (force, torque) = self.load_at_centre(v, omega);
-        join(force, add(torque, cross(self.centre, force)))
+        if self.constants.attached {
+            return [0.0; 6];
+        }
+        let (v, omega) = split(xi);
+        let mut sum = self.friction(v, omega);
+        for part in &self.parts {
+            let at_part = add(v, cross(omega, part.centre));
+            sum.add(part.centre, at_part, omega, &part.loads(&self.constants, at_part, omega));
+        }
+        let separation = limited(sum.lost, omega, sum.power);
+        join(sum.force, add(sum.torque, separation))
     }
 
-    fn load_at_centre(&self, v: Vec3, omega: Vec3) -> (Vec3, Vec3) {
-        if self.constants.attached {
-            return ([0.0; 3], [0.0; 3]);
+    fn friction(&self, v: Vec3, omega: Vec3) -> Sum {
+        let at_centre = add(v, cross(omega, self.centre));
+        let loads = Loads {
+            workless: [0.0; 3],
+            force: scale(-1.0, mat_vec(&self.stokes[0], at_centre)),
+            damping: scale(-1.0, mat_vec(&self.stokes[1], omega)),
+            lost: [0.0; 3],
+        };
+        let mut sum = Sum::default();
+        sum.add(self.centre, at_centre, omega, &loads);
+        sum
+    }
+}
+
+/// The body as its only part.
+fn whole(body: &Body) -> Part {
+    let about_centre = shift_added_mass(&body.added_mass, body.centre_of_buoyancy);
+    let block = |k: usize| -> Mat3 {
+        std::array::from_fn(|i| std::array::from_fn(|j| about_centre[k + i][k + j]))
+    };
+    Part {
+        centre: body.centre_of_buoyancy,
+        translation: block(0),
+        rotation: block(3),
+        drag_area: body.separation.drag_area,
+        extents: body.separation.extents,
+    }
+}
+
+/// Loads of one part, at its centre.
+struct Loads {
+    /// Rotational lift (N).
+    workless: Vec3,
+    /// Normal force and drag (N).
+    force: Vec3,
+    /// Rotational damping (N m).
+    damping: Vec3,
+    /// The part of the couple that separation takes away (N m).
+    lost: Vec3,
+}
+
+/// Loads of all parts about the centre of mass, the lost couples apart.
+#[derive(Default)]
+struct Sum {
+    force: Vec3,
+    torque: Vec3,
+    lost: Vec3,
+    /// Power of all but the lost couples and what does no work (W).
+    power: f64,
+}
+
+impl Sum {
+    fn add(&mut self, centre: Vec3, v: Vec3, omega: Vec3, loads: &Loads) {
+        let force = add(loads.force, loads.workless);
+        self.force = add(self.force, force);
+        self.torque = add(self.torque, add(loads.damping, cross(centre, force)));
+        self.lost = add(self.lost, loads.lost);
+        self.power += dot(loads.force, v) + dot(loads.damping, omega);
+    }
+}
+
+/// A part with its tensors in the fluid.
+#[derive(Debug, Clone)]
+struct PartClosure {
+    centre: Vec3,
+    density: f64,
+    /// A11 - mu 1, mu the least eigenvalue of A11 (kg).
+    directed: Mat3,
+    /// lam - mu and lam, lam the largest eigenvalue of A11 (kg).
+    spread: f64,
+    largest: f64,
+    /// tr(A11) 1 - A11 (kg).
+    circulation: Mat3,
+    /// A22 about the centre (kg m^2).
+    rotation: Mat3,
+    /// Drag areas P (m^2).
+    drag_area: Mat3,
+    /// Squared half-extents of the part and of the body (m^2).
+    extents: Mat3,
+    body_extents: Mat3,
+    /// Second-largest half-extent L of the body (m).
+    length: f64,
+}
+
+impl PartClosure {
+    fn new(part: &Part, body: &Body, density: f64) -> Self {
+        let translation = scaled(density, &part.translation);
+        let ([mu, _, lam], _) = eigen_symmetric(&translation);
+        let trace = translation[0][0] + translation[1][1] + translation[2][2];
+        Self {
+            centre: part.centre,
+            density,
+            directed: shifted(&translation, 1.0, -mu),
+            spread: lam - mu,
+            largest: lam,
+            circulation: shifted(&translation, -1.0, trace),
+            rotation: scaled(density, &part.rotation),
+            drag_area: part.drag_area,
+            extents: part.extents,
+            body_extents: body.separation.extents,
+            length: body.half_extents[1],
         }
+    }
+
+    /// From the velocity relative to the fluid at the part's centre.
+    fn loads(&self, constants: &SeparatedFlow, v: Vec3, omega: Vec3) -> Loads {
         let speed = norm(v);
         let incidence = self.incidence(v, speed);
-        let attachment = self.attachment(&incidence, omega, speed);
-        let normal = incidence.normal_force(attachment);
-        let lift = scale(
-            self.constants.rotational_lift * attachment,
-            cross(mat_vec(&self.circulation, omega), v),
-        );
-        let drag = self.drag(v);
-        let damping = self.damping(omega, speed);
-        let lost = scale(attachment - 1.0, incidence.couple);
-        let dissipated = dot(normal, v) + dot(drag, v) + dot(damping, omega);
-        let separation = limited(lost, omega, dissipated);
-        (add(add(normal, lift), drag), add(separation, damping))
+        let attachment = self.attachment(constants, &incidence, omega, speed);
+        Loads {
+            workless: scale(
+                constants.rotational_lift * attachment,
+                cross(mat_vec(&self.circulation, omega), v),
+            ),
+            force: add(incidence.normal_force(attachment), self.drag(v)),
+            damping: self.damping(constants, omega, speed),
+            lost: scale(attachment - 1.0, incidence.couple),
+        }
     }
 
     /// Direction and size of the potential couple, and the chord and span that belong to it.
@@ -171,7 +252,7 @@ impl Closure {
         let span = scale(1.0 / size, couple);
         let chord = cross(span, normal);
         let half_chord = dot(chord, mat_vec(&self.extents, chord)).sqrt();
-        let half_span = dot(span, mat_vec(&self.extents, span)).sqrt();
+        let half_span = dot(span, mat_vec(&self.body_extents, span)).sqrt();
         let cos = size / (pull * speed);
         Incidence {
             couple,
@@ -184,8 +265,13 @@ impl Closure {
     }
 
     /// The fraction of the potential couple that survives.
-    fn attachment(&self, incidence: &Incidence, omega: Vec3, speed: f64) -> f64 {
-        let c = &self.constants;
+    fn attachment(
+        &self,
+        c: &SeparatedFlow,
+        incidence: &Incidence,
+        omega: Vec3,
+        speed: f64,
+    ) -> f64 {
         let still =
             c.broadside_attachment + (c.attachment - c.broadside_attachment) * incidence.cos2;
         if incidence.size == 0.0 {
@@ -200,25 +286,19 @@ impl Closure {
         ceiling / (1.0 + (1.0 - fraction) / fraction * lag)
     }
 
-    /// Pressure drag along P v and the Stokes resistance.
+    /// Pressure drag along P v.
     fn drag(&self, v: Vec3) -> Vec3 {
         let pv = mat_vec(&self.drag_area, v);
         let size = norm(pv);
-        let viscous = scale(-self.density * self.viscosity, mat_vec(&self.stokes[0], v));
         if size == 0.0 {
-            return viscous;
+            return [0.0; 3];
         }
-        add_scaled(viscous, -0.5 * self.density * dot(v, pv) / size, pv)
+        scale(-0.5 * self.density * dot(v, pv) / size, pv)
     }
 
-    fn damping(&self, omega: Vec3, speed: f64) -> Vec3 {
-        let rate = self.constants.rotational_damping * (speed / self.length + norm(omega));
-        let inertial = scale(-rate, mat_vec(&self.rotation, omega));
-        add_scaled(
-            inertial,
-            -self.density * self.viscosity,
-            mat_vec(&self.stokes[1], omega),
-        )
+    fn damping(&self, constants: &SeparatedFlow, omega: Vec3, speed: f64) -> Vec3 {
+        let rate = constants.rotational_damping * (speed / self.length + norm(omega));
+        scale(-rate, mat_vec(&self.rotation, omega))
     }
 }
 
@@ -252,6 +332,10 @@ fn limited(lost: Vec3, omega: Vec3, dissipated: f64) -> Vec3 {
     } else {
         lost
     }
+}
+
+fn scaled(factor: f64, m: &Mat3) -> Mat3 {
+    shifted(m, factor, 0.0)
 }
 
 /// `s m + d 1`.
@@ -290,6 +374,7 @@ mod tests {
                 extents: diagonal(half_extents.map(|e| e * e)),
                 ..Separation::default()
             },
+            parts: vec![],
             surface: Surface::default(),
         };
         Closure::new(&body, 1.0, 0.0, SeparatedFlow::default()).unwrap()
@@ -319,9 +404,9 @@ mod tests {
     fn statics(closure: &Closure, area: f64, degrees: f64) -> (f64, f64) {
         let (sin, cos) = (degrees.to_radians().sin(), degrees.to_radians().cos());
         let v = [cos, -sin, 0.0];
-        let (force, torque) = closure.load_at_centre(v, [0.0; 3]);
+        let (force, torque) = split(&closure.load(&join(v, [0.0; 3])));
         // With the Munk couple that Kirchhoff's terms contribute.
-        let munk = closure.incidence(v, 1.0).couple;
+        let munk = closure.parts[0].incidence(v, 1.0).couple;
         let normal = force[1];
         (normal / (0.5 * area), (torque[2] + munk[2]) / normal / 2.0)
     }
@@ -362,14 +447,16 @@ mod tests {
             [0.3, 2.2, 0.7],
             [1.5, 0.1, 0.8],
         );
-        closure.centre = [0.2, -0.1, 0.3];
+        let part = &mut closure.parts[0];
+        part.centre = [0.2, -0.1, 0.3];
         let (s, c) = (0.6, 0.8);
         let turn = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
         for tensor in [
-            &mut closure.directed,
-            &mut closure.circulation,
-            &mut closure.drag_area,
-            &mut closure.extents,
+            &mut part.directed,
+            &mut part.circulation,
+            &mut part.drag_area,
+            &mut part.extents,
+            &mut part.body_extents,
         ] {
             let transposed = crate::linalg::transpose(&turn);
             *tensor = crate::linalg::product(&crate::linalg::product(&turn, tensor), &transposed);
@@ -386,8 +473,7 @@ mod tests {
             let xi: Vec6 = std::array::from_fn(|i| if i < 3 { z[i] } else { 4.0 * z[i] });
             let load = closure.load(&xi);
             let (v, omega) = split(&xi);
-            let at_centre = add(v, cross(omega, closure.centre));
-            // Attached, the couple -v x A11 v is Kirchhoff's and does its work there.
+            let at_centre = add(v, cross(omega, closure.parts[0].centre));
             let power: f64 = (0..6).map(|i| load[i] * xi[i]).sum();
             let scale = norm(at_centre).powi(3) + norm(omega).powi(3);
             assert!(power <= 1e-12 * scale, "state {n}: power {power}");
@@ -399,7 +485,7 @@ mod tests {
         let sphere = plate([0.5, 0.5, 0.5, 0.0, 0.0, 0.0], [0.45; 3], [1.0; 3]);
         // Moving along x with the spin along z: backspin lifts a ball that flies with its top
         // moving backwards, omega x v along +y.
-        let (force, _) = sphere.load_at_centre([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+        let (force, _) = split(&sphere.load(&[1.0, 0.0, 0.0, 0.0, 0.0, 1.0]));
         assert!(force[1] > 0.0 && force[0] < 0.0, "{force:?}");
     }
 

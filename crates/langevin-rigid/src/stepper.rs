@@ -22,15 +22,19 @@ pub const SPEED_LIMIT: f64 = 1e6;
 /// allocates nothing.
 ///
 /// ```
-/// use langevin_rigid::{Body, Fluid, NoiseStream, Settings, State, Stepper};
+/// use langevin_rigid::{Body, Fluid, NoiseStream, Separation, Settings, State, Stepper};
 /// // A 10 cm rubber ball in water: its added mass is half the water it displaces.
 /// let volume = 5.236e-4;
 /// let mut body = Body {
 ///     mass: 0.6, volume, inertia: [[6e-4, 0.0, 0.0], [0.0, 6e-4, 0.0], [0.0, 0.0, 6e-4]],
 ///     centre_of_buoyancy: [0.0; 3], added_mass: [[0.0; 6]; 6], half_extents: [0.05; 3],
-///     thickness: 0.1, length: 0.1, separation: Default::default(), surface: Default::default(),
+///     thickness: 0.1, length: 0.1, separation: Separation::default(), parts: vec![], surface: Default::default(),
 /// };
-/// for i in 0..3 { body.added_mass[i][i] = 0.5 * volume; }
+/// for i in 0..3 {
+///     body.added_mass[i][i] = 0.5 * volume;
+///     body.separation.drag_area[i][i] = 0.5 * 7.85e-3;
+///     body.separation.extents[i][i] = 0.05 * 0.05;
+/// }
 ///
 /// let stepper = Stepper::new(&body, &Fluid::WATER, None, &Settings::default())?;
 /// let mut state = State::default();

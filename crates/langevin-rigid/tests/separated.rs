@@ -59,6 +59,7 @@ fn disc(inertia_ratio: f64, h: f64) -> Plate {
                 stokes_translation: diagonal([32.0 / 3.0 * r, 16.0 * r, 32.0 / 3.0 * r]),
                 stokes_rotation: diagonal([32.0 / 3.0 * r.powi(3); 3]),
             },
+            parts: vec![],
             surface: Surface::default(),
         },
         width: 1.0,
@@ -101,6 +102,7 @@ fn strip(inertia_ratio: f64, h: f64) -> Plate {
                 extents: diagonal([a * a, b * b, span * span / 4.0]),
                 ..Separation::default()
             },
+            parts: vec![],
             surface: Surface::default(),
         },
         width: 1.0,

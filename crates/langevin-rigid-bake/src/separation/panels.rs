@@ -15,6 +15,8 @@ pub(super) struct Panel {
     pub(super) middles: [Vec3; 3],
     /// Surface gradients of the potentials of unit velocity along x, y, z.
     gradients: [Vec3; 3],
+    /// Potentials of the six unit motions at `middles` (m, m^2).
+    pub(super) potentials: [[f64; 6]; 3],
 }
 
 /// All triangles that have an area.
@@ -46,6 +48,10 @@ impl Panel {
             area: 0.5 * size,
             middles: [[a, b], [b, c], [c, a]].map(|[p, q]| scale(0.5, add(p, q))),
             gradients: [gradient(0), gradient(1), gradient(2)],
+            potentials: [[0, 1], [1, 2], [2, 0]].map(|pair| {
+                let [p, q] = pair.map(|i: usize| surface.potentials[vertices[i]]);
+                std::array::from_fn(|k| 0.5 * (p[k] + q[k]))
+            }),
         })
     }
 

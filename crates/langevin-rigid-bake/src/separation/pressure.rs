@@ -52,12 +52,17 @@ impl PressureDrag {
 impl Panels {
     /// Drag of the motion along a unit vector.
     pub(super) fn drag(&self, direction: Vec3) -> PressureDrag {
+        self.drag_of(direction, |_| 1.0)
+    }
+
+    /// Drag of what `share` of each panel takes.
+    pub(super) fn drag_of(&self, direction: Vec3, share: impl Fn(&Panel) -> f64) -> PressureDrag {
         let wake = self.wake(direction);
         let term = |p: &Panel| {
             let facing = dot(p.normal, direction);
             let slip = p.squared_slip(direction, wake.share);
             let drop = wake.windward(slip) - wake.leeward(slip);
-            (0.5 * facing.abs() * p.area, drop)
+            (0.5 * facing.abs() * p.area * share(p), drop)
         };
         let (area, force) = self
             .0

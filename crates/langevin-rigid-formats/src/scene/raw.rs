@@ -51,6 +51,8 @@ pub(super) struct RawBody {
     pub(super) inner_diameter: Given<f64>,
     pub(super) hole: Given<f64>,
     pub(super) height: Given<f64>,
+    pub(super) length: Given<f64>,
+    pub(super) width: Given<f64>,
     pub(super) side: Given<f64>,
     pub(super) thickness: Given<f64>,
     pub(super) triangles: Given<i64>,

@@ -24,6 +24,9 @@ macro_rules! built_in {
 
 /// All built-in scenes, in the order they are listed.
 pub const BUILT_IN: &[BuiltIn] = built_in![
+    "leaf",
+    "maple-seed",
+    "feather",
     "paper-75",
     "paper-30",
     "airplane",

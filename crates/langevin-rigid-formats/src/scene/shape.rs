@@ -13,10 +13,10 @@ use crate::mesh::LengthUnit;
 const DEFAULT_TRIANGLES: usize = 1280;
 
 const SHAPES: &str =
-    "ellipsoid, elliptical-plate, disc, coin, washer, box, cylinder, paper-airplane";
+    "ellipsoid, elliptical-plate, disc, coin, washer, box, cylinder, paper-airplane, leaf, feather, samara";
 
 /// The keys that give dimensions, with the value of each.
-fn dimensions(raw: &RawBody) -> [(&'static str, Option<std::ops::Range<usize>>); 9] {
+fn dimensions(raw: &RawBody) -> [(&'static str, Option<std::ops::Range<usize>>); 11] {
     fn at<T>(value: &Given<T>) -> Option<std::ops::Range<usize>> {
         value.as_ref().map(Spanned::span)
     }
@@ -28,6 +28,8 @@ fn dimensions(raw: &RawBody) -> [(&'static str, Option<std::ops::Range<usize>>);
         ("inner_diameter", at(&raw.inner_diameter)),
         ("hole", at(&raw.hole)),
         ("height", at(&raw.height)),
+        ("length", at(&raw.length)),
+        ("width", at(&raw.width)),
         ("side", at(&raw.side)),
         ("thickness", at(&raw.thickness)),
     ]
@@ -202,6 +204,31 @@ fn parametric(
                 thickness: get("thickness", &body.thickness)?,
             }
         }
+        blade @ ("leaf" | "feather" | "samara") => {
+            allow(doc, body, blade, &["length", "width", "thickness"])?;
+            let (length, width, thickness) = (
+                get("length", &body.length)?,
+                get("width", &body.width)?,
+                get("thickness", &body.thickness)?,
+            );
+            match blade {
+                "leaf" => Shape::Leaf {
+                    length,
+                    width,
+                    thickness,
+                },
+                "feather" => Shape::Feather {
+                    length,
+                    width,
+                    thickness,
+                },
+                _ => Shape::Samara {
+                    length,
+                    width,
+                    thickness,
+                },
+            }
+        }
         other => {
             let message = format!("`{other}` is no shape; choose one of {SHAPES}");
             return Err(doc.error(name.span(), message));
@@ -281,7 +308,10 @@ fn thickness_of(shape: &Shape) -> f64 {
         | Shape::Disc { thickness, .. }
         | Shape::Coin { thickness, .. }
         | Shape::Washer { thickness, .. }
-        | Shape::PaperAirplane { thickness, .. } => thickness,
+        | Shape::PaperAirplane { thickness, .. }
+        | Shape::Leaf { thickness, .. }
+        | Shape::Feather { thickness, .. }
+        | Shape::Samara { thickness, .. } => thickness,
     }
 }
 
@@ -376,5 +406,30 @@ fn write_shape(shape: &Shape) -> RawBody {
             thickness: given(thickness),
             ..none
         },
+        Shape::Leaf {
+            length,
+            width,
+            thickness,
+        } => write_blade("leaf", [length, width, thickness]),
+        Shape::Feather {
+            length,
+            width,
+            thickness,
+        } => write_blade("feather", [length, width, thickness]),
+        Shape::Samara {
+            length,
+            width,
+            thickness,
+        } => write_blade("samara", [length, width, thickness]),
+    }
+}
+
+fn write_blade(name: &str, [length, width, thickness]: [f64; 3]) -> RawBody {
+    RawBody {
+        shape: given(name.to_owned()),
+        length: given(length),
+        width: given(width),
+        thickness: given(thickness),
+        ..RawBody::default()
     }
 }
