@@ -38,6 +38,7 @@ pub(crate) enum Command {
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
+  langevin-rigid simulate
   langevin-rigid simulate paper-75
   langevin-rigid simulate paper-75 --seed 7 --out drop7
   langevin-rigid simulate my-scene.toml --duration 3 --json
@@ -47,6 +48,7 @@ Writes into DIR: trajectory.csv (world frame; metres, seconds, radians), traject
 summary.json and scene.toml, the scene with every choice spelled out.")]
 pub(crate) struct Simulate {
     /// A built-in scene (see `langevin-rigid scenes`) or a scene file.
+    #[arg(default_value = "leaf")]
     pub(crate) scene: String,
     /// Folder for the results [default: out/SCENE].
     #[arg(long, value_name = "DIR")]

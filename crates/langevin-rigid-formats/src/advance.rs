@@ -56,3 +56,58 @@ fn hold(tank: &Tank, origin: [f64; 3], state: &mut State) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use langevin_rigid::linalg::quat_from_rotation_vector;
+
+    use super::*;
+    use crate::baking;
+
+    #[test]
+    fn a_wall_takes_only_the_velocity_into_it() {
+        let mut state = State {
+            position: [0.3, 0.0, 0.0],
+            orientation: quat_from_rotation_vector([0.3, 0.4, 0.5]),
+            ..State::default()
+        };
+        state.set_world_velocities([2.0, -1.0, 0.5], [1.0, 2.0, 3.0]);
+        let tank = Tank {
+            size: [0.4, 1.0, 0.4],
+        };
+        let close = |a: [f64; 3], b: [f64; 3]| (0..3).all(|i| (a[i] - b[i]).abs() < 1e-14);
+        hold(&tank, [0.0; 3], &mut state);
+        assert_eq!(state.position, [0.2, 0.0, 0.0]);
+        assert!(close(state.world_velocity(), [0.0, -1.0, 0.5]));
+        assert!(close(state.world_angular_velocity(), [1.0, 2.0, 3.0]));
+        // On its way back nothing is taken.
+        state.position[0] = 0.3;
+        state.set_world_velocities([-2.0, 0.0, 0.0], [0.0; 3]);
+        hold(&tank, [0.0; 3], &mut state);
+        assert!(close(state.world_velocity(), [-2.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn a_carried_body_moves_on_a_line_until_it_is_let_go() {
+        let text = r#"
+            fluid.preset = "water"
+            body = { shape = "coin", diameter = 0.02, thickness = 0.002, mass = 0.004 }
+            run = { time_step = 0.001, duration = 1.0 }
+            release = { velocity = [0.1, -0.3, 0.0], tilt = 20.0, carried = 0.05 }
+        "#;
+        let scene = Scene::parse("coin", "coin.toml", text).unwrap();
+        let bake = baking::bake_scene(&scene, None, &()).unwrap().bake;
+        let stepper = baking::stepper(&scene, &bake).unwrap();
+        let mut state = scene.release;
+        for _ in 0..50 {
+            advance(&scene, &stepper, &mut state, &NoiseStream::default()).unwrap();
+        }
+        assert_eq!(state.orientation, scene.release.orientation);
+        assert_eq!(state.velocity, scene.release.velocity);
+        for (x, wanted) in state.position.into_iter().zip([0.005, -0.015, 0.0]) {
+            assert!((x - wanted).abs() < 1e-12, "{x} for {wanted}");
+        }
+        advance(&scene, &stepper, &mut state, &NoiseStream::default()).unwrap();
+        assert_ne!(state.velocity, scene.release.velocity);
+    }
+}

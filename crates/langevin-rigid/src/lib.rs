@@ -28,6 +28,8 @@ mod separated;
 mod settings;
 mod state;
 mod stepper;
+#[cfg(test)]
+mod thin_card;
 pub mod turbulence;
 
 pub use bake::{Bake, BakeError};

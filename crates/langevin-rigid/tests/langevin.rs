@@ -22,6 +22,7 @@ const AIR: Fluid = Fluid {
 
 fn frozen_settings(integrator: Integrator) -> Settings {
     Settings {
+        model: Model::Consistent,
         integrator,
         turbulence: TurbulenceSource::History,
         gravity: [0.0; 3],
@@ -164,7 +165,11 @@ fn a_sheet_finds_a_terminal_speed_of_the_order_of_u0() {
     let body = sheet();
     let u0 = falling_speed(&body, &AIR, langevin_rigid::GRAVITY);
     assert!((u0 - 0.81).abs() < 0.01, "{u0}");
-    let stepper = Stepper::new(&body, &AIR, None, &Settings::default()).unwrap();
+    let settings = Settings {
+        model: Model::Consistent,
+        ..Settings::default()
+    };
+    let stepper = Stepper::new(&body, &AIR, None, &settings).unwrap();
     for seed in 0..6 {
         let noise = NoiseStream { seed, body: 0 };
         let mut state = State::default();

@@ -147,29 +147,6 @@ fn walls_hold_the_centre_and_the_floor_ends_the_fall() {
 }
 
 #[test]
-fn a_wall_takes_only_the_velocity_into_it() {
-    let mut state = State {
-        position: [0.3, 0.0, 0.0],
-        orientation: quat_from_rotation_vector([0.3, 0.4, 0.5]),
-        ..State::default()
-    };
-    state.set_world_velocities([2.0, -1.0, 0.5], [1.0, 2.0, 3.0]);
-    let tank = crate::scene::Tank {
-        size: [0.4, 1.0, 0.4],
-    };
-    let close = |a: [f64; 3], b: [f64; 3]| (0..3).all(|i| (a[i] - b[i]).abs() < 1e-14);
-    walls::hold(&tank, [0.0; 3], &mut state);
-    assert_eq!(state.position, [0.2, 0.0, 0.0]);
-    assert!(close(state.world_velocity(), [0.0, -1.0, 0.5]));
-    assert!(close(state.world_angular_velocity(), [1.0, 2.0, 3.0]));
-    // On its way back nothing is taken.
-    state.position[0] = 0.3;
-    state.set_world_velocities([-2.0, 0.0, 0.0], [0.0; 3]);
-    walls::hold(&tank, [0.0; 3], &mut state);
-    assert!(close(state.world_velocity(), [-2.0, 0.0, 0.0]));
-}
-
-#[test]
 fn the_columns_stop_where_most_have_landed() {
     let scene = ball(
         "run = { time_step = 0.002, model = \"kirchhoff\" }\ntank.size = [9.0, 0.3, 9.0]\n\
