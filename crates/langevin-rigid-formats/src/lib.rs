@@ -1,10 +1,11 @@
 //! Files of Langevin Rigid: what comes in (meshes, scenes) and what goes out (bakes, trajectories,
-//! ensembles, pictures).
+//! ensembles, regimes, pictures).
 
 pub mod baking;
 pub mod ensemble;
 pub mod files;
 pub mod mesh;
 pub mod picture;
+pub mod regimes;
 pub mod scene;
 pub mod trajectory;
