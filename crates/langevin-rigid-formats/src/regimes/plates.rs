@@ -231,15 +231,20 @@ mod tests {
         for (plate, share) in [(Plate::Disc, 1.0), (Plate::Strip, DRAWN_SPAN / SPAN)] {
             let body = plate.body(1.0, 0.1);
             let corner = |t: &[u32; 3], k: usize| body.surface.vertices[t[k] as usize];
-            let volume: f64 = body.surface.triangles.iter().map(|t| {
-                let (p, q, r) = (corner(t, 0), corner(t, 1), corner(t, 2));
-                let cross = [
-                    q[1] * r[2] - q[2] * r[1],
-                    q[2] * r[0] - q[0] * r[2],
-                    q[0] * r[1] - q[1] * r[0],
-                ];
-                (p[0] * cross[0] + p[1] * cross[1] + p[2] * cross[2]) / 6.0
-            }).sum();
+            let volume: f64 = body
+                .surface
+                .triangles
+                .iter()
+                .map(|t| {
+                    let (p, q, r) = (corner(t, 0), corner(t, 1), corner(t, 2));
+                    let cross = [
+                        q[1] * r[2] - q[2] * r[1],
+                        q[2] * r[0] - q[0] * r[2],
+                        q[0] * r[1] - q[1] * r[0],
+                    ];
+                    (p[0] * cross[0] + p[1] * cross[1] + p[2] * cross[2]) / 6.0
+                })
+                .sum();
             let error = volume / (share * body.volume) - 1.0;
             // The polygon is 0.16 % smaller than the circle.
             assert!(error.abs() < 2e-3, "{plate:?}: {error}");

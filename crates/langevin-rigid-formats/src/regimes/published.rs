@@ -51,7 +51,8 @@ pub struct Measured {
     pub source: &'static str,
 }
 
-const FIELD: &str = "Field, Klaus, Moore & Nori 1997, Nature 388:252 (read off a diagram, approximate)";
+const FIELD: &str =
+    "Field, Klaus, Moore & Nori 1997, Nature 388:252 (read off a diagram, approximate)";
 const ANDERSEN: &str = "Andersen, Pesavento & Wang 2005, J. Fluid Mech. 541:65, aluminium in water";
 
 /// Field et al. had few discs between Re 100 and 2000; their boundaries in I* are continued there.
