@@ -152,22 +152,26 @@ fn caption(report: &Report) -> String {
         compared, agreeing, ..
     } = report.agreement;
     format!(
-        "Model {}; {agreeing} of {compared} compared points agree with experiments",
+        "Marks: the model {}. Colour behind them: experiments. {agreeing} of {compared} compared \
+         points agree.",
         report.model
     )
 }
 
-/// The run in the middle of those of this motion whose point is of one mind, discs before strips.
+/// A run of this motion: of a point in the middle of those whose releases are of one mind and agree
+/// with experiments, or at least are of one mind; discs before strips.
 fn typical<'a>(motion: Motion, runs: &'a [Run], points: &[Point]) -> Option<&'a Case> {
-    let unanimous = |plate: Plate| {
-        points
-            .iter()
-            .filter(move |p| p.plate == plate && p.motions == [motion; TILTS.len()])
-            .collect::<Vec<_>>()
+    let middle = |plate: Plate, confirmed: bool| {
+        let fits = |p: &&Point| {
+            p.plate == plate
+                && p.motions == [motion; TILTS.len()]
+                && (!confirmed || p.compared && p.agrees)
+        };
+        let fitting: Vec<&Point> = points.iter().filter(fits).collect();
+        fitting.get(fitting.len() / 2).copied()
     };
-    let candidates = Plate::ALL.map(unanimous).into_iter();
-    let candidates = candidates.into_iter().find(|c| !c.is_empty())?;
-    let point = candidates[candidates.len() / 2];
+    let confirmed = Plate::ALL.into_iter().find_map(|p| middle(p, true));
+    let point = confirmed.or_else(|| Plate::ALL.into_iter().find_map(|p| middle(p, false)))?;
     let mut cases = runs.iter().map(|r| &r.case);
     cases.find(|c| {
         (c.plate, c.reynolds, c.inertia_ratio) == (point.plate, point.re, point.inertia_ratio)
@@ -196,7 +200,7 @@ fn strobe(path: &Path, motion: Motion, case: &Case) -> Result<()> {
         Plate::Strip => "chord",
     };
     let title = format!(
-        "{}: a {} of I* {:.3} at Re {:.0}, {width} 1 m",
+        "Settled {}: a {} of {width} 1 m, I* {:.3}, Re {:.0}",
         motion.name(),
         case.plate.name(),
         case.inertia_ratio,

@@ -260,7 +260,7 @@ fn draw_legend(canvas: &mut Canvas) {
             ("chaotic", &of(Motion::Chaotic)),
             ("tumble", &of(Motion::Tumble)),
             ("hollow: two of three releases, or none alike", &hollow),
-            ("a measured plate", &experiment),
+            ("a plate of an experiment", &experiment),
         ],
     );
     let line = |canvas: &mut Canvas, [x, y]: Place| {
