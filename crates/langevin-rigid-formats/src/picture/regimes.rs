@@ -17,9 +17,11 @@ const PLOT_TOP: f64 = 150.0;
 const PLOT: [f64; 2] = [560.0, 590.0];
 const PLOT_LEFT: [f64; 2] = [110.0, 790.0];
 const LEGEND: [f64; 2] = [832.0, 880.0];
-/// Radius of a mark, and of the ring around one that disagrees.
+/// Radius of a mark, at most, and of the ring around one that disagrees, in such radii.
 const MARK: f64 = 10.0;
-const RING: f64 = 17.0;
+const RING: f64 = 1.7;
+/// Radius of a mark over the distance of the next where they are dense: rings stay apart.
+const DENSE: f64 = 0.29;
 /// The grid's outermost points are this factor inside the plot.
 const ROOM: f64 = 1.7;
 /// Strength of a regime's colour behind the marks.
@@ -90,18 +92,31 @@ impl Panel {
         let published = Published::of(self.plate);
         self.draw_published(canvas, published);
         self.draw_axes(canvas);
+        let radius = self.radius(points);
         for point in points.iter().filter(|p| p.plate == self.plate) {
             let at = self.place(point.re, point.inertia_ratio);
             if point.compared && !point.agrees {
-                ring(canvas, at);
+                ring(canvas, at, radius);
             }
             let unanimous = point.motions.iter().all(|m| *m == point.regime);
-            mark(canvas, at, MARK, point.regime, unanimous);
+            mark(canvas, at, radius, point.regime, unanimous);
         }
         for plate in published.measured {
             let at = self.place(plate.reynolds, plate.inertia_ratio);
             measured(canvas, at, plate.motion);
         }
+    }
+
+    /// The radius at which marks and their rings stay apart. The points are in the grid's order.
+    fn radius(&self, points: &[Point]) -> f64 {
+        let own = points.iter().filter(|p| p.plate == self.plate);
+        let places: Vec<Place> = own.map(|p| self.place(p.re, p.inertia_ratio)).collect();
+        let apart = places.windows(2).map(|w| {
+            let [across, up] = [0, 1].map(|i| (w[1][i] - w[0][i]).abs());
+            // Neighbours in a column, and the step from one column to the next.
+            if across < 0.5 { up } else { across }
+        });
+        apart.fold(MARK, |radius, distance| radius.min(DENSE * distance))
     }
 
     /// The published regimes as areas; pale where they are uncertain; their boundaries as lines.
@@ -125,10 +140,10 @@ impl Panel {
         );
 
         let about = |x: f64| [x / UNCERTAINTY, x * UNCERTAINTY];
-        self.fade(canvas, &self.area(about(onset), [light, heavy]));
+        Self::fade(canvas, &self.area(about(onset), [light, heavy]));
         for boundary in published.boundaries {
             let beyond = [onset * UNCERTAINTY, fast];
-            self.fade(canvas, &self.area(beyond, about(boundary.inertia_ratio)));
+            Self::fade(canvas, &self.area(beyond, about(boundary.inertia_ratio)));
         }
         let ends = [self.place(onset, light), self.place(onset, heavy)];
         canvas.line(&ends, 2.5, OUTLINE);
@@ -139,7 +154,7 @@ impl Panel {
         }
     }
 
-    fn fade(&self, canvas: &mut Canvas, area: &Area) {
+    fn fade(canvas: &mut Canvas, area: &Area) {
         let [low, high] = [area.low, area.high];
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
         canvas.fill_polygon(&corners, PAGE, 0.6);
@@ -214,17 +229,17 @@ fn shape(at: Place, radius: f64, motion: Motion) -> Vec<Place> {
 fn mark(canvas: &mut Canvas, at: Place, radius: f64, motion: Motion, unanimous: bool) {
     // A triangle or square in a circle is smaller than the circle.
     let radius = radius * if corners(motion).0 < 5 { 1.2 } else { 1.0 };
-    canvas.fill_polygon(&shape(at, radius + 1.5, motion), PAGE, 1.0);
+    canvas.fill_polygon(&shape(at, 1.15 * radius, motion), PAGE, 1.0);
     canvas.fill_polygon(&shape(at, radius, motion), colour(motion), 1.0);
     if !unanimous {
         canvas.fill_polygon(&shape(at, 0.55 * radius, motion), PAGE, 1.0);
     }
 }
 
-fn ring(canvas: &mut Canvas, at: Place) {
-    let mut circle = shape(at, RING, Motion::Tumble);
+fn ring(canvas: &mut Canvas, at: Place, radius: f64) {
+    let mut circle = shape(at, RING * radius, Motion::Tumble);
     circle.extend_from_within(..2);
-    canvas.line(&circle, 2.5, OUTLINE);
+    canvas.line(&circle, 0.22 * radius, OUTLINE);
 }
 
 /// A plate of an experiment.
@@ -242,8 +257,8 @@ fn legend_row(canvas: &mut Canvas, y: f64, entries: &[(&str, &dyn Fn(&mut Canvas
     for (words, draw) in entries {
         draw(canvas, [x, y]);
         let style = text(18.0, Align::Left);
-        canvas.text_beside(words, [x + 24.0, y], &style);
-        x += 24.0 + canvas.text_width(words, &style) + 44.0;
+        canvas.text_beside(words, [x + 26.0, y], &style);
+        x += 26.0 + canvas.text_width(words, &style) + 44.0;
     }
 }
 
@@ -263,6 +278,7 @@ fn draw_legend(canvas: &mut Canvas) {
             ("a plate of an experiment", &experiment),
         ],
     );
+    let ringed = |canvas: &mut Canvas, at: Place| ring(canvas, at, MARK);
     let line = |canvas: &mut Canvas, [x, y]: Place| {
         canvas.line(&[[x - 14.0, y], [x + 14.0, y]], 2.5, OUTLINE);
     };
@@ -270,7 +286,7 @@ fn draw_legend(canvas: &mut Canvas) {
         canvas,
         LEGEND[1],
         &[
-            ("disagrees with the published regime", &ring),
+            ("disagrees with the published regime", &ringed),
             (
                 "published boundary; pale: not compared, within a factor 1.5 of it",
                 &line,
