@@ -251,8 +251,11 @@ fn measured(canvas: &mut Canvas, at: Place, motion: Motion) {
     canvas.fill_polygon(&shape(at, 6.0, motion), colour(motion), 1.0);
 }
 
+/// Draws a mark at a place.
+type Drawing<'a> = &'a dyn Fn(&mut Canvas, Place);
+
 /// Draws the entries one after the other, each a mark and its words.
-fn legend_row(canvas: &mut Canvas, y: f64, entries: &[(&str, &dyn Fn(&mut Canvas, Place))]) {
+fn legend_row(canvas: &mut Canvas, y: f64, entries: &[(&str, Drawing<'_>)]) {
     let mut x = MARGIN + 20.0;
     for (words, draw) in entries {
         draw(canvas, [x, y]);
