@@ -79,7 +79,7 @@ fn report(cases: &[Case], runs: &[Run], points: &[Point], started: Instant) -> R
     if runs.len() < cases.len() {
         let (done, asked) = (runs.len(), cases.len());
         warnings.push(format!(
-            "interrupted: {done} of {asked} runs came to an end; points without all their runs are missing"
+            "interrupted: {done} of {asked} runs came to an end; points without all their runs are missing, and the agreement is of the rest"
         ));
     }
     let mut diverged = 0;
