@@ -113,7 +113,7 @@ pub enum Shape {
         length: f64,
         /// Width of the vane along Z.
         width: f64,
-        /// Thickness half way; the quill has twice it, the tip half.
+        /// Thickness half way; the quill has 1.4 of it, the tip 0.6.
         thickness: f64,
     },
     /// A maple seed along X: nut at the -X end, a wing with a straight thick leading edge at +Z.

@@ -27,6 +27,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     Simulate(Simulate),
     Ensemble(Ensemble),
+    Regimes(Regimes),
     AddedMass(AddedMass),
     Turbulence(Turbulence),
     Bake(Bake),
@@ -102,6 +103,30 @@ pub(crate) struct Ensemble {
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<Model>,
     /// Print the statistics as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Drop discs and strips over a grid of Reynolds number and inertia, and map how they fall.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid regimes
+  langevin-rigid regimes --grid 20x12 --out fine --json
+
+Every plate is released from three tilts with the model `separated`, without turbulence; each fall is
+classified by itself, and the map compared with published measurements.
+
+Writes into DIR: regimes.csv (one row per run), regimes.json (the grid, the published boundaries and
+the agreement), regimes.png (the map) and strobe-MOTION.png, one fall of each motion.")]
+pub(crate) struct Regimes {
+    /// Values of I* and of Re, each from 2 to 100, from end to end of the map.
+    #[arg(long, value_name = "NxM", default_value = "10x6", value_parser = grid)]
+    pub(crate) grid: [u32; 2],
+    /// Folder for the results.
+    #[arg(long, value_name = "DIR", default_value = "out/regimes")]
+    pub(crate) out: PathBuf,
+    /// Print regimes.json as well.
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -183,6 +208,13 @@ fn positive(text: &str) -> Result<f64, String> {
         Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
         _ => Err("it must be a positive number".into()),
     }
+}
+
+fn grid(text: &str) -> Result<[u32; 2], String> {
+    let count = |part: &str| part.parse().ok().filter(|n| (2..=100).contains(n));
+    text.split_once('x')
+        .and_then(|(n, m)| Some([count(n)?, count(m)?]))
+        .ok_or_else(|| "it must be two whole numbers from 2 to 100, such as 10x6".into())
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ mod bake;
 mod bars;
 mod cache;
 mod ensemble;
+mod regimes;
 mod scenes;
 mod simulate;
 mod summary;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
     let done = match &arguments.command {
         Command::Simulate(options) => simulate::simulate(options, &bars),
         Command::Ensemble(options) => ensemble::ensemble(options, &bars),
+        Command::Regimes(options) => regimes::regimes(options, &bars),
         Command::AddedMass(options) => added_mass::added_mass(options, &bars),
         Command::Turbulence(options) => turbulence::turbulence(options, &bars),
         Command::Bake(options) => bake::bake(options, &bars),

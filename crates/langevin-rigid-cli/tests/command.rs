@@ -138,7 +138,10 @@ fn golden_run() {
         .replace("semi_axes", "size");
     let file = place.write(
         "golden.toml",
-        &scene(&body, "duration = 0.5\nturbulence = \"history\""),
+        &scene(
+            &body,
+            "model = \"consistent\"\nduration = 0.5\nturbulence = \"history\"",
+        ),
     );
     for threads in ["1", "2", "3"] {
         let output = Command::cargo_bin("langevin-rigid")
@@ -426,8 +429,7 @@ fn scenes_lists_every_scene_with_a_line() {
 fn the_command_line_itself_is_checked() {
     let place = Place::new();
     for arguments in [
-        &["simulate"][..],
-        &["simulate", "paper-75", "--dt", "-1"],
+        &["simulate", "paper-75", "--dt", "-1"][..],
         &["simulate", "paper-75", "--model", "magic"],
         &["added-mass", "x.obj", "--unit", "inch"],
         &["fly"],

@@ -197,10 +197,14 @@ fn bad_values_are_refused() {
 fn the_coin_sinks_and_lands_as_measured() {
     let statistics = Place::new().json(&["coin", "--runs", "400"]);
     let t = column(&statistics, "t");
-    let (depth, spread) = (column(&statistics, "depth_mean"), column(&statistics, "x_std"));
+    let (depth, spread) = (
+        column(&statistics, "depth_mean"),
+        column(&statistics, "x_std"),
+    );
     for (time, deep, wide) in [(0.2, 7.3, 0.97), (0.4, 16.7, 1.74), (0.6, 28.2, 5.66)] {
         let sample = t.iter().position(|x| (x - time).abs() < 1e-9).unwrap();
-        for (found, measured, tolerance) in [(depth[sample], deep, 0.1), (spread[sample], wide, 0.35)]
+        for (found, measured, tolerance) in
+            [(depth[sample], deep, 0.1), (spread[sample], wide, 0.35)]
         {
             let error = 100.0 * found / measured - 1.0;
             assert!(error.abs() < tolerance, "{found} m after {time} s");

@@ -1,5 +1,5 @@
 //! Files of Langevin Rigid: what comes in (meshes, scenes) and what goes out (bakes, trajectories,
-//! ensembles, pictures).
+//! ensembles, regimes, pictures).
 
 pub mod advance;
 pub mod baking;
@@ -7,5 +7,6 @@ pub mod ensemble;
 pub mod files;
 pub mod mesh;
 pub mod picture;
+pub mod regimes;
 pub mod scene;
 pub mod trajectory;

@@ -17,6 +17,7 @@ mod motion;
 mod numbers;
 mod palette;
 mod raster;
+mod regimes;
 mod scene;
 mod shadows;
 #[cfg(test)]
@@ -29,6 +30,7 @@ use canvas::Canvas;
 use hull::Hull;
 use layout::Layout;
 use motion::Motion;
+pub use regimes::regime_map;
 use solid::Solid;
 use strobe::Instants;
 

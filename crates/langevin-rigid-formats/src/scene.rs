@@ -219,11 +219,6 @@ impl Scene {
 
     /// The scene as a TOML file, every choice spelled out.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        let State {
-            position,
-            orientation,
-            ..
-        } = self.release;
         toml::to_string(&RawScene {
             description: Some(self.description.clone()),
             fluid: Spanned::new(
@@ -236,14 +231,7 @@ impl Scene {
                 },
             ),
             body: Spanned::new(0..0, shape::write(&self.body)),
-            release: RawRelease {
-                position: given(position),
-                orientation: given(orientation),
-                velocity: given(self.release.world_velocity()),
-                angular_velocity: given(self.release.world_angular_velocity()),
-                carried: given(self.carried),
-                ..RawRelease::default()
-            },
+            release: write_release(&self.release, self.carried),
             run: Spanned::new(
                 0..0,
                 RawRun {
@@ -404,11 +392,38 @@ fn release(doc: &Document, raw: &RawRelease) -> Result<State, SceneError> {
         orientation: orientation(doc, raw)?,
         ..State::default()
     };
-    state.set_world_velocities(
-        vector(doc, &raw.velocity, "`velocity` (m/s)")?,
-        vector(doc, &raw.angular_velocity, "`angular_velocity` (rad/s)")?,
-    );
+    let velocity = vector(doc, &raw.velocity, "`velocity` (m/s)")?;
+    let spin = vector(doc, &raw.angular_velocity, "`angular_velocity` (rad/s)")?;
+    match raw.frame.as_ref().map(|f| (f, f.get_ref().as_str())) {
+        None | Some((_, "world")) => state.set_world_velocities(velocity, spin),
+        Some((_, "body")) => (state.velocity, state.angular_velocity) = (velocity, spin),
+        Some((frame, other)) => {
+            let message = format!("`{other}` is no frame of the velocities; choose world or body");
+            return Err(doc.error(frame.span(), message));
+        }
+    }
     Ok(state)
+}
+
+/// The release as it reads back: velocities in the world frame where rounding lets them.
+fn write_release(release: &State, carried: f64) -> RawRelease {
+    let (velocity, spin) = (release.world_velocity(), release.world_angular_velocity());
+    let mut again = *release;
+    again.set_world_velocities(velocity, spin);
+    let (frame, velocity, spin) = if again == *release {
+        ("world", velocity, spin)
+    } else {
+        ("body", release.velocity, release.angular_velocity)
+    };
+    RawRelease {
+        position: given(release.position),
+        orientation: given(release.orientation),
+        velocity: given(velocity),
+        angular_velocity: given(spin),
+        frame: given(frame.to_owned()),
+        carried: given(carried),
+        ..RawRelease::default()
+    }
 }
 
 fn carried(doc: &Document, raw: &RawRelease) -> Result<f64, SceneError> {

@@ -47,28 +47,36 @@ fn a_maple_seed_spins_itself_down() {
     for seed in 0..10 {
         let states = fall(&scene, &bake, seed, 4.0);
         let turns = late(&states, |s| s.world_angular_velocity()[1]) / std::f64::consts::TAU;
-        assert!((10.0..30.0).contains(&turns), "seed {seed}: {turns} turns a second");
+        assert!(
+            (18.0..30.0).contains(&turns),
+            "seed {seed}: {turns} turns a second"
+        );
         let speed = sinking(&states);
         assert!((0.7..1.6).contains(&speed), "seed {seed}: {speed} m/s");
         // The span points from the nut, which is inside, up and out.
-        let cone = late(&states, |s| rotate(s.orientation, [1.0, 0.0, 0.0])[1].asin());
+        let cone = late(&states, |s| {
+            rotate(s.orientation, [1.0, 0.0, 0.0])[1].asin()
+        });
         let degrees = cone.to_degrees();
-        assert!((5.0..40.0).contains(&degrees), "seed {seed}: cone of {degrees} degrees");
+        assert!(
+            (5.0..40.0).contains(&degrees),
+            "seed {seed}: cone of {degrees} degrees"
+        );
     }
 }
 
 #[test]
-fn without_its_slices_the_seed_stops_turning() {
+fn without_its_slices_the_seed_turns_but_now_and_then() {
     let (scene, mut bake) = baked("maple-seed");
     bake.body.parts.clear();
     let states = fall(&scene, &bake, 0, 4.0);
     let turns = late(&states, |s| s.world_angular_velocity()[1]) / std::f64::consts::TAU;
-    assert!(turns.abs() < 5.0, "{turns} turns a second");
+    assert!(turns.abs() < 10.0, "{turns} turns a second");
 }
 
 #[test]
 fn leaves_and_feathers_wander_and_turn_on_their_way() {
-    for (name, slow, fast) in [("leaf", 0.6, 1.4), ("feather", 0.4, 1.2)] {
+    for (name, slow, fast) in [("leaf", 0.6, 1.4), ("feather", 0.35, 1.3)] {
         let (scene, bake) = baked(name);
         let mut apart = 0.0f64;
         let mut first: Option<State> = None;

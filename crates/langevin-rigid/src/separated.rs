@@ -10,8 +10,7 @@
 
 use crate::body::{Body, Part, shift_added_mass};
 use crate::linalg::{
-    Mat3, Vec3, Vec6, add, cholesky, cross, dot, eigen_symmetric, join, mat_vec, norm,
-    scale, split,
+    Mat3, Vec3, Vec6, add, cholesky, cross, dot, eigen_symmetric, join, mat_vec, norm, scale, split,
 };
 
 /// The constants of the closure, the same for all bodies.
@@ -105,7 +104,12 @@ impl Closure {
         let mut sum = self.friction(v, omega);
         for part in &self.parts {
             let at_part = add(v, cross(omega, part.centre));
-            sum.add(part.centre, at_part, omega, &part.loads(&self.constants, at_part, omega));
+            sum.add(
+                part.centre,
+                at_part,
+                omega,
+                &part.loads(&self.constants, at_part, omega),
+            );
         }
         let separation = limited(sum.lost, omega, sum.power);
         join(sum.force, add(sum.torque, separation))
@@ -265,13 +269,7 @@ impl PartClosure {
     }
 
     /// The fraction of the potential couple that survives.
-    fn attachment(
-        &self,
-        c: &SeparatedFlow,
-        incidence: &Incidence,
-        omega: Vec3,
-        speed: f64,
-    ) -> f64 {
+    fn attachment(&self, c: &SeparatedFlow, incidence: &Incidence, omega: Vec3, speed: f64) -> f64 {
         let still =
             c.broadside_attachment + (c.attachment - c.broadside_attachment) * incidence.cos2;
         if incidence.size == 0.0 {

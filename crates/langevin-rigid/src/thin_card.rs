@@ -35,7 +35,11 @@ impl Card {
         let volume = 1e-9;
         let body = Body {
             mass: inertia_ratio,
-            inertia: [[turning, 0.0, 0.0], [0.0, turning, 0.0], [0.0, 0.0, turning]],
+            inertia: [
+                [turning, 0.0, 0.0],
+                [0.0, turning, 0.0],
+                [0.0, 0.0, turning],
+            ],
             volume,
             centre_of_buoyancy: [0.0; 3],
             added_mass,
@@ -111,7 +115,10 @@ impl Card {
         let (low, high) = late
             .iter()
             .fold((f64::MAX, f64::MIN), |(l, h), y| (l.min(y[3]), h.max(y[3])));
-        let progress: Vec<f64> = late.chunks(steps / 8).map(|c| c[c.len() - 1][3] - c[0][3]).collect();
+        let progress: Vec<f64> = late
+            .chunks(steps / 8)
+            .map(|c| c[c.len() - 1][3] - c[0][3])
+            .collect();
         let onwards = |sign: f64| progress.iter().all(|turned| sign * turned > 2.0 * PI);
         match high - low {
             swing if swing < 1.5 * PI => 'F',
@@ -145,7 +152,10 @@ fn falling_on_its_edge_it_has_the_published_eigenvalues() {
     let fall = [(PI / (A - B)).sqrt(), 0.0, 0.0, -0.5 * PI];
     let still = card.end(fall, 0.5);
     for (a, b) in fall.iter().zip(&still) {
-        assert!((a - b).abs() < 1e-9, "{fall:?} is no steady fall: {still:?}");
+        assert!(
+            (a - b).abs() < 1e-9,
+            "{fall:?} is no steady fall: {still:?}"
+        );
     }
     let (time, small) = (0.5, 1e-5);
     let mut map = [[0.0; 4]; 4];

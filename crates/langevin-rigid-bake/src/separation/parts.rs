@@ -142,7 +142,9 @@ impl Slicing {
     /// plate are a third of them, along it the body's.
     fn extents(&self, nodes: impl Iterator<Item = Node> + Clone) -> Mat3 {
         let total: f64 = nodes.clone().map(|n| n.weight).sum();
-        let middle = nodes.clone().fold([0.0; 3], |m, n| add(m, scale(n.weight / total, n.x)));
+        let middle = nodes
+            .clone()
+            .fold([0.0; 3], |m, n| add(m, scale(n.weight / total, n.x)));
         let moments = sum(nodes.map(|n| {
             let d = sub(n.x, middle);
             let across = sub(d, scale(dot(d, self.axis), self.axis));

@@ -67,7 +67,7 @@ pub(super) fn feather(sizes: [f64; 3], triangles: usize) -> Result<TriMesh, Shap
         Section {
             middle: [0.08 * length * s * s, -0.3 * half_chord * vane],
             half_chord,
-            half_thickness: 0.5 * thickness * (2.0 - 1.5 * s),
+            half_thickness: 0.5 * thickness * (1.4 - 0.8 * s),
             cup: 0.05 * half_chord * vane,
             pitch: 0.0,
             taper: 0.4 * vane,
@@ -100,7 +100,11 @@ fn loft(
     triangles: usize,
     section: impl Fn(f64) -> Section,
 ) -> Result<TriMesh, ShapeError> {
-    for (dimension, value) in [("length", length), ("width", width), ("thickness", thickness)] {
+    for (dimension, value) in [
+        ("length", length),
+        ("width", width),
+        ("thickness", thickness),
+    ] {
         positive(shape, dimension, value)?;
     }
     enough(shape, triangles, FEWEST)?;

@@ -75,6 +75,7 @@ pub(super) struct RawRelease {
     pub(super) orientation: Given<[f64; 4]>,
     pub(super) velocity: Given<[f64; 3]>,
     pub(super) angular_velocity: Given<[f64; 3]>,
+    pub(super) frame: Given<String>,
     pub(super) carried: Given<f64>,
 }
 

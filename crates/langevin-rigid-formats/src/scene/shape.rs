@@ -12,8 +12,7 @@ use crate::mesh::LengthUnit;
 /// Triangles of a parametric body where the scene does not say.
 const DEFAULT_TRIANGLES: usize = 1280;
 
-const SHAPES: &str =
-    "ellipsoid, elliptical-plate, disc, coin, washer, box, cylinder, paper-airplane, leaf, feather, samara";
+const SHAPES: &str = "ellipsoid, elliptical-plate, disc, coin, washer, box, cylinder, paper-airplane, leaf, feather, samara";
 
 /// The keys that give dimensions, with the value of each.
 fn dimensions(raw: &RawBody) -> [(&'static str, Option<std::ops::Range<usize>>); 11] {

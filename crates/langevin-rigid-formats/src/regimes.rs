@@ -1,0 +1,15 @@
+//! The regimes of falling plates: what the model `separated` does, and what experiments found.
+//!
+//! A grid of discs and strips over Reynolds number and dimensionless inertia I* is dropped from
+//! several tilts; each fall is classified by itself, and each point of the grid compared with the
+//! published map.
+
+mod plates;
+mod published;
+mod survey;
+
+pub use plates::{Plate, terminal_speed};
+pub use published::{Boundary, Measured, Published, UNCERTAINTY};
+pub use survey::{
+    Agreement, Case, Point, REYNOLDS, Run, TILTS, cases, csv, inertia_ratios, points, run,
+};
