@@ -42,6 +42,8 @@ Examples:
   langevin-rigid simulate paper-75 --seed 7 --out drop7
   langevin-rigid simulate my-scene.toml --duration 3 --json
   langevin-rigid simulate ellipsoid-water --model kirchhoff
+  langevin-rigid simulate business-card --picture strobe --view iso
+  langevin-rigid simulate business-card --view front --frames frames
 
 Writes into DIR: trajectory.csv (world frame; metres, seconds, radians), trajectory.png,
 summary.json and scene.toml, the scene with every choice spelled out.")]
@@ -66,9 +68,36 @@ pub(crate) struct Simulate {
     /// Source of turbulence: body-driven, wake-age=LENGTHS or history.
     #[arg(long, value_name = "SOURCE")]
     pub(crate) turbulence: Option<TurbulenceSource>,
+    /// What the picture shows: the body at equal times, its path, or both.
+    #[arg(long, value_name = "WHAT", default_value = "both")]
+    pub(crate) picture: Shown,
+    /// Where it is seen from [default: front and side next to each other].
+    #[arg(long, value_name = "SIDE")]
+    pub(crate) view: Option<Side>,
+    /// Write a film into this folder as frame-00001.png, frame-00002.png, ...
+    #[arg(long, value_name = "DIR")]
+    pub(crate) frames: Option<PathBuf>,
+    /// Frames a second of the film.
+    #[arg(long, value_name = "N", default_value = "60", value_parser = positive, requires = "frames")]
+    pub(crate) fps: f64,
     /// Print the summary as JSON.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Shown {
+    Strobe,
+    Path,
+    Both,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Side {
+    Front,
+    Side,
+    Top,
+    Iso,
 }
 
 /// Drop the body of a scene many times and write the statistics of its falls.

@@ -6,6 +6,7 @@ mod bake;
 mod bars;
 mod cache;
 mod ensemble;
+mod pictures;
 mod scenes;
 mod simulate;
 mod summary;

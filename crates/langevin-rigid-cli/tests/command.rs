@@ -437,3 +437,37 @@ fn the_command_line_itself_is_checked() {
     let help = place.run(&["simulate", "--help"]);
     assert!(help.code == 0 && help.out.contains("Examples"));
 }
+
+#[test]
+fn a_film_is_numbered_and_of_one_size() {
+    let place = Place::new();
+    let scene = place.write("ball.toml", &scene(BALL, "duration = 0.2"));
+    let outcome = place.run(&[
+        "simulate",
+        &scene,
+        "--view",
+        "side",
+        "--picture",
+        "strobe",
+        "--frames",
+        "film",
+        "--fps",
+        "30",
+    ]);
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    assert!(
+        outcome.out.contains("ffmpeg -framerate 30 -i"),
+        "{}",
+        outcome.out
+    );
+    // Width and height are in a PNG's first 24 bytes.
+    let head = |n: u32| {
+        let png = std::fs::read(place.path(&format!("film/frame-{n:05}.png"))).unwrap();
+        png[16..24].to_vec()
+    };
+    assert!((2..=7).all(|n| head(n) == head(1)));
+    assert_eq!(std::fs::read_dir(place.path("film")).unwrap().count(), 7);
+    let refused = place.run(&["simulate", &scene, "--frames", "film", "--fps", "1e9"]);
+    refused.fails_with(&["frames a second", "at most 99999"]);
+    assert_eq!(place.run(&["simulate", &scene, "--fps", "30"]).code, 2);
+}
