@@ -287,8 +287,8 @@ fn judge(section: &mut Section, shown: &Shown, statement: &Statement, ensembles:
             statement.key
         );
         let (held, seeds) = (
-            section.quote(format!("{key}.held"), held as f64, 6),
-            section.quote(format!("{key}.seeds"), seeds as f64, 6),
+            section.quote(format!("{key}.held"), held as f64, 0),
+            section.quote(format!("{key}.seeds"), seeds as f64, 0),
         );
         let words = ensemble.reading.words();
         by_verdict[verdict].push(format!("<i>{words}</i> ({held} of {seeds})"));
@@ -315,30 +315,47 @@ fn judge(section: &mut Section, shown: &Shown, statement: &Statement, ensembles:
     });
 }
 
-/// The run of median duration of each reading that is drawn, with its trajectory as a table.
+/// The run of median duration of each reading that is drawn, with its trajectory as a table; once
+/// more at the paper's own interval where it names one, however close bodies then are.
 fn draw(
     section: &mut Section,
     shown: &Shown,
     setting: &Setting,
     ensembles: &[Ensemble],
 ) -> Result<(), ReportError> {
-    let mut figures = Vec::new();
-    for (reading, fall) in drawn(shown, ensembles) {
-        let name = format!("{}-{}", shown.scene, reading.name().replace('.', "-"));
-        let title = format!("{} ({}, seed {})", shown.scene, reading.words(), fall.seed);
-        let picture = setting.picture(fall, title, shown.view)?;
-        let key = format!("{}.{}.shown", shown.scene, reading.name());
-        let seed = section.quote(format!("{key}.seed"), fall.seed as f64, 6);
-        let duration = section.quote(format!("{key}.duration"), fall.duration(), 3);
-        let caption = format!(
-            "<i>{}</i>, seed {seed}: the run of median duration, {duration} s.",
-            reading.words()
-        );
-        figures.push(section.picture(&name, &picture, &caption)?);
+    let runs = drawn(shown, ensembles);
+    let intervals = [Some(None), setting.scene.picture_interval.map(Some)];
+    for interval in intervals.into_iter().flatten() {
+        let mut figures = Vec::new();
+        for (reading, fall) in &runs {
+            let mut name = file_name(shown, reading);
+            if let Some(seconds) = interval {
+                let _ = write!(name, "-every-{}ms", 1e3 * seconds);
+            }
+            let title = format!("{} ({}, seed {})", shown.scene, reading.words(), fall.seed);
+            let picture = setting.picture(fall, title, shown.view, interval)?;
+            let caption = caption(section, shown, reading, fall);
+            figures.push(section.picture(&name, &picture, &caption)?);
+        }
+        section.row(&figures);
+    }
+    for (reading, fall) in &runs {
+        let name = file_name(shown, reading);
         section.file(format!("{name}.csv"), trajectory::csv(0, &fall.states));
     }
-    section.row(&figures);
     Ok(())
+}
+
+fn file_name(shown: &Shown, reading: &Reading) -> String {
+    format!("{}-{}", shown.scene, reading.name().replace('.', "-"))
+}
+
+fn caption(section: &mut Section, shown: &Shown, reading: &Reading, fall: &Fall) -> String {
+    let key = format!("{}.{}.shown", shown.scene, reading.name());
+    let seed = section.quote(format!("{key}.seed"), fall.seed as f64, 0);
+    let duration = section.quote(format!("{key}.duration"), fall.duration(), 3);
+    let words = reading.words();
+    format!("<i>{words}</i>, seed {seed}: the run of median duration, {duration} s.")
 }
 
 fn drawn<'a>(shown: &Shown, ensembles: &'a [Ensemble]) -> Vec<(Reading, &'a Fall)> {
@@ -414,7 +431,7 @@ fn tabulate(section: &mut Section, shown: &Shown, ensembles: &[Ensemble]) {
             ("seeds", ensemble.falls.len()),
             ("diverged", ensemble.diverged()),
         ] {
-            let count = section.quote(format!("{key}.{name}"), count as f64, 6);
+            let count = section.quote(format!("{key}.{name}"), count as f64, 0);
             row.push(count.to_string());
         }
         for (name, _, value) in &fields {
@@ -435,7 +452,11 @@ fn spread(section: &mut Section, key: &str, spread: Spread) -> String {
     if !median.is_finite() {
         return "\u{2013}".to_owned();
     }
+    let only = low == high;
     let median = section.quote(format!("{key}.median"), median, 3);
+    if only {
+        return median.to_string();
+    }
     let low = section.quote(format!("{key}.low"), low, 2);
     let high = section.quote(format!("{key}.high"), high, 2);
     format!("{median} <span class=\"note\">[{low}, {high}]</span>")

@@ -7,15 +7,20 @@
 //! by the rule that the page states. Numbers depend on the options alone, but for wall-clock times.
 
 mod chart;
+mod coin;
+mod departures;
 mod falls;
 mod fig2;
 mod html;
+mod machine;
 mod measures;
 mod numbers;
 mod paper;
 mod runs;
 mod section;
+mod showcase;
 mod spread;
+mod table2;
 
 use std::path::{Path, PathBuf};
 
@@ -68,6 +73,22 @@ pub const PARTS: &[Part] = &[
     Part {
         name: "fig5",
         compute: falls::fig5,
+    },
+    Part {
+        name: "table2",
+        compute: table2::section,
+    },
+    Part {
+        name: "departures",
+        compute: departures::section,
+    },
+    Part {
+        name: "coin",
+        compute: coin::section,
+    },
+    Part {
+        name: "showcase",
+        compute: showcase::section,
     },
 ];
 

@@ -33,10 +33,21 @@ impl Axes {
         }
     }
 
+    /// Another direction in place of the thin axis, for bodies that have none.
+    pub(crate) fn set_thin(&mut self, axis: Vec3) {
+        self.thin = axis;
+    }
+
     /// Angle of the thin axis from the vertical, as a line: 0 flat, 90 on edge (degrees).
     pub(crate) fn tilt(&self, state: &State) -> f64 {
         let up = rotate(state.orientation, self.thin)[1].abs();
         libm::acos(up.min(1.0)).to_degrees()
+    }
+
+    /// Angle of the thin axis from straight up, 0 to 180 (degrees).
+    pub(crate) fn lean(&self, state: &State) -> f64 {
+        let up = rotate(state.orientation, self.thin)[1];
+        libm::acos(up.clamp(-1.0, 1.0)).to_degrees()
     }
 
     /// Elevation of the long axis (degrees), 0 to 90.

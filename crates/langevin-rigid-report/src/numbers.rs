@@ -10,7 +10,8 @@ use std::fmt;
 pub struct Numbers(BTreeMap<String, f64>);
 
 impl Numbers {
-    /// Keeps `value` under `key` and gives it to be shown with `digits` significant digits.
+    /// Keeps `value` under `key` and gives it to be shown with `digits` significant digits, or as a
+    /// whole number for none.
     pub(crate) fn quote(&mut self, key: impl Into<String>, value: f64, digits: usize) -> Quoted {
         let key = key.into();
         if value.is_finite() {
@@ -60,7 +61,9 @@ impl fmt::Display for Quoted {
 /// `value` to so many significant digits, with a true minus sign; very small and large values as
 /// powers of ten.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
-    let digits = digits.max(1);
+    if digits == 0 {
+        return format!("{value:.0}");
+    }
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -85,6 +88,7 @@ mod tests {
     fn significant_digits_are_kept() {
         for (value, digits, shown) in [
             (0.0, 3, "0"),
+            (100.0, 0, "100"),
             (9.99, 2, "10"),
             (-0.01234, 2, "\u{2212}0.012"),
             (123.0, 3, "123"),

@@ -9,7 +9,9 @@ use langevin_rigid::{
 };
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::baking::{self, Baked};
-use langevin_rigid_formats::picture::{Picture, PictureOptions, Pose, Subject, trajectory_picture};
+use langevin_rigid_formats::picture::{
+    Picture, PictureOptions, Pose, Subject, View, trajectory_picture,
+};
 use langevin_rigid_formats::scene::{self, Scene};
 use rayon::prelude::*;
 
@@ -79,7 +81,7 @@ impl Reading {
     }
 }
 
-/// A built-in scene with its bake, history included.
+/// A built-in scene with its bake.
 pub(crate) struct Setting {
     pub(crate) scene: Scene,
     pub(crate) baked: Baked,
@@ -87,6 +89,7 @@ pub(crate) struct Setting {
 }
 
 impl Setting {
+    /// With the turbulence history, for every reading.
     pub(crate) fn new(
         name: &str,
         options: &Options,
@@ -94,6 +97,19 @@ impl Setting {
     ) -> Result<Self, ReportError> {
         let mut scene = scene::find(name)?;
         scene.settings.turbulence = TurbulenceSource::History;
+        Self::of(scene, options, progress)
+    }
+
+    /// With the history only if the scene itself needs it.
+    pub(crate) fn as_written(
+        name: &str,
+        options: &Options,
+        progress: &dyn Progress,
+    ) -> Result<Self, ReportError> {
+        Self::of(scene::find(name)?, options, progress)
+    }
+
+    fn of(scene: Scene, options: &Options, progress: &dyn Progress) -> Result<Self, ReportError> {
         let baked = baking::bake_scene(&scene, options.cache.as_deref(), progress)?;
         let hull = Hull::new(&baked.bake.body.surface.vertices);
         Ok(Self { scene, baked, hull })
@@ -175,12 +191,13 @@ impl Setting {
         })
     }
 
-    /// The body at equal times along its path.
+    /// The body along its path: `interval` seconds apart, or as close as bodies stay apart.
     pub(crate) fn picture(
         &self,
         fall: &Fall,
         title: String,
-        view: langevin_rigid_formats::picture::View,
+        view: View,
+        interval: Option<f64>,
     ) -> Result<Picture, ReportError> {
         let surface = &self.baked.bake.body.surface;
         let subject = Subject {
@@ -197,7 +214,7 @@ impl Setting {
             title: Some(title),
             view,
             ground: self.scene.stop.ground,
-            interval: self.scene.picture_interval,
+            interval,
             ..PictureOptions::default()
         };
         Ok(trajectory_picture(&subject, &poses, &options)?)
