@@ -9,6 +9,8 @@ const RIGHT: f64 = 12.0;
 const TOP: f64 = 14.0;
 const BOTTOM: f64 = 46.0;
 const LEGEND_ROW: f64 = 20.0;
+/// Letters of a name beyond which the key has one column.
+const LONGEST_IN_TWO: usize = 22;
 
 /// Told apart by people who see few colours, too (Okabe and Ito).
 const COLOURS: [&str; 6] = [
@@ -33,6 +35,8 @@ pub(crate) struct Curve {
     pub(crate) name: String,
     pub(crate) points: Vec<[f64; 2]>,
     pub(crate) dashed: bool,
+    /// Number of its colour; its place among the curves if none.
+    pub(crate) colour: Option<usize>,
 }
 
 impl Curve {
@@ -41,6 +45,7 @@ impl Curve {
             name: name.into(),
             points,
             dashed: false,
+            colour: None,
         }
     }
 
@@ -49,6 +54,17 @@ impl Curve {
             dashed: true,
             ..self
         }
+    }
+
+    pub(crate) fn coloured(self, colour: usize) -> Self {
+        Self {
+            colour: Some(colour),
+            ..self
+        }
+    }
+
+    fn stroke(&self, place: usize) -> &'static str {
+        COLOURS[self.colour.unwrap_or(place) % COLOURS.len()]
     }
 }
 
@@ -72,7 +88,13 @@ impl Chart {
         let all = || curves.iter().flat_map(|c| c.points.iter());
         let x = Scale::new(all().map(|p| p[0]), false, [LEFT, WIDTH - RIGHT]);
         let y = Scale::new(all().map(|p| p[1]), self.log, [HEIGHT - BOTTOM, TOP]);
-        let height = HEIGHT + LEGEND_ROW * curves.len().div_ceil(2) as f64;
+        let longest = curves.iter().map(|c| c.name.chars().count()).max();
+        let columns = if longest.unwrap_or(0) > LONGEST_IN_TWO {
+            1
+        } else {
+            2
+        };
+        let height = HEIGHT + LEGEND_ROW * curves.len().div_ceil(columns) as f64;
         let mut svg = format!(
             r#"<svg viewBox="0 0 {WIDTH} {height}" role="img" aria-label="{} against {}">"#,
             escape(&self.y),
@@ -80,8 +102,8 @@ impl Chart {
         );
         self.axes(&mut svg, &x, &y);
         for (k, curve) in curves.iter().enumerate() {
-            draw(&mut svg, curve, COLOURS[k % COLOURS.len()], &x, &y);
-            legend(&mut svg, curve, k);
+            draw(&mut svg, curve, curve.stroke(k), &x, &y);
+            legend(&mut svg, curve, k, columns);
         }
         svg + "</svg>"
     }
@@ -152,10 +174,10 @@ fn draw(svg: &mut String, curve: &Curve, colour: &str, x: &Scale, y: &Scale) {
     );
 }
 
-fn legend(svg: &mut String, curve: &Curve, k: usize) {
-    let left = LEFT + 205.0 * (k % 2) as f64;
-    let y = HEIGHT + LEGEND_ROW * (k / 2) as f64 + 8.0;
-    let (colour, dashes) = (COLOURS[k % COLOURS.len()], dashes(curve));
+fn legend(svg: &mut String, curve: &Curve, k: usize, columns: usize) {
+    let left = LEFT + 205.0 * (k % columns) as f64;
+    let y = HEIGHT + LEGEND_ROW * (k / columns) as f64 + 8.0;
+    let (colour, dashes) = (curve.stroke(k), dashes(curve));
     let _ = write!(
         svg,
         r#"<path class="curve" stroke="{colour}"{dashes} d="M{left:.1} {y:.1}h24"/><text x="{:.1}" y="{:.1}">{}</text>"#,
@@ -235,6 +257,13 @@ impl Scale {
     }
 
     fn ticks(&self) -> Vec<f64> {
+        if self.log && self.high - self.low < 2.0 {
+            let decades = (libm::floor(self.low) as i32)..=(libm::ceil(self.high) as i32);
+            return decades
+                .flat_map(|d| [1.0, 2.0, 5.0].map(|m| m * libm::exp10(f64::from(d))))
+                .filter(|t| (self.low..=self.high).contains(&libm::log10(*t)))
+                .collect();
+        }
         let step = self.step();
         let first = libm::ceil(self.low / step - 1e-9);
         let ticks = (0..20).map(|k| (first + f64::from(k)) * step);
@@ -246,7 +275,7 @@ impl Scale {
 
     fn label(&self, value: f64) -> String {
         let text = if self.log {
-            let exponent = libm::round(libm::log10(value)) as i32;
+            let exponent = libm::floor(libm::log10(value) + 1e-9) as i32;
             if (-2..4).contains(&exponent) {
                 format!("{value:.*}", (-exponent).max(0) as usize)
             } else {

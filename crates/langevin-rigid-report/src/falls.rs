@@ -100,9 +100,10 @@ const TURNS_FRONT: Statement = Statement {
 const TURNS_SIDEWAYS: Statement = Statement {
     key: "turns-sideways",
     words: "The airplane turns sideways.",
-    condition: "the heading of its path turns by at least a quarter turn",
+    condition: "the heading of its path turns by at least a quarter turn, and the path leaves the vertical \
+                plane of the launch by a body length or more",
     kirchhoff: false,
-    holds: |m| m.heading_turn >= 90.0,
+    holds: |m| m.heading_turn >= 90.0 && m.sideways >= 1.0,
 };
 
 const FLUTTERS: Statement = Statement {
@@ -167,6 +168,7 @@ pub(crate) fn fig4(options: &Options, progress: &dyn Progress) -> Result<Section
             "drift",
             "pitch_turn",
             "heading_turn",
+            "sideways",
             "revolutions",
             "rolls",
             "spin",
@@ -371,16 +373,16 @@ fn plot(section: &mut Section, shown: &Shown, axes: &Axes, ensembles: &[Ensemble
     let runs = drawn(shown, ensembles);
     let curves = |parts: &[(&str, &dyn Fn(&State) -> f64)]| -> Vec<Curve> {
         let mut curves = Vec::new();
-        for (reading, fall) in &runs {
+        for (colour, (reading, fall)) in runs.iter().enumerate() {
             for (k, (name, value)) in parts.iter().enumerate() {
                 let points = fall.states.iter().map(|s| [s.time, value(s)]).collect();
-                let words = reading.words();
+                let words = reading.short();
                 let name = if name.is_empty() {
                     words
                 } else {
                     format!("{name}, {words}")
                 };
-                let curve = Curve::new(name, points);
+                let curve = Curve::new(name, points).coloured(colour);
                 curves.push(if k > 0 { curve.dashed() } else { curve });
             }
         }

@@ -93,6 +93,8 @@ pub(crate) struct Measures {
     pub(crate) spin: f64,
     /// Largest turn of the heading of the path (degrees).
     pub(crate) heading_turn: f64,
+    /// Farthest from the vertical plane of the launch (body lengths); that of x without a launch.
+    pub(crate) sideways: f64,
     /// Largest turn about the body's own z axis, nose over tail for the airplane (degrees).
     pub(crate) pitch_turn: f64,
 }
@@ -122,6 +124,7 @@ pub(crate) const FIELDS: &[Field] = &[
     ("heading_turn", "turn of the heading (deg)", |m| {
         m.heading_turn
     }),
+    ("sideways", "sideways (body lengths)", |m| m.sideways),
     ("pitch_turn", "turn nose over tail (deg)", |m| m.pitch_turn),
 ];
 
@@ -151,6 +154,7 @@ impl Measures {
             cross_reversals: f64::from(swings.across),
             amplitude: swings.amplitude,
             heading_turn: heading.range.to_degrees(),
+            sideways: sideways(first, states) / axes.length,
             ..Self::of_rotation(axes, states)
         }
     }
@@ -211,6 +215,25 @@ fn smoothed(states: &[State]) -> Vec<[f64; 2]> {
             [mean(0), mean(2)]
         })
         .collect()
+}
+
+/// The largest distance from the vertical plane of the launch (m).
+fn sideways(release: &State, states: &[State]) -> f64 {
+    let [vx, _, vz] = release.world_velocity();
+    let speed = libm::hypot(vx, vz);
+    let [ux, uz] = if speed > 0.0 {
+        [vx / speed, vz / speed]
+    } else {
+        [1.0, 0.0]
+    };
+    let off = |s: &State| {
+        let (x, z) = (
+            s.position[0] - release.position[0],
+            s.position[2] - release.position[2],
+        );
+        (x * uz - z * ux).abs()
+    };
+    states.iter().map(off).fold(0.0, f64::max)
 }
 
 /// How the horizontal path turns.

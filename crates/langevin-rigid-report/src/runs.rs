@@ -69,6 +69,15 @@ impl Reading {
         }
     }
 
+    /// Its name beside others that mostly have the usual source.
+    pub(crate) fn short(&self) -> String {
+        if self.source == BODY_DRIVEN {
+            self.model.to_string()
+        } else {
+            self.words()
+        }
+    }
+
     /// `scene` under this reading.
     pub(crate) fn applied(&self, mut scene: Scene) -> Scene {
         scene.settings.model = self.model;
