@@ -471,3 +471,33 @@ fn a_film_is_numbered_and_of_one_size() {
     refused.fails_with(&["frames a second", "at most 99999"]);
     assert_eq!(place.run(&["simulate", &scene, "--fps", "30"]).code, 2);
 }
+
+#[test]
+fn reproduce_writes_a_page_and_its_data() {
+    let place = Place::new();
+    let outcome = place.run(&[
+        "reproduce",
+        "--only",
+        "fig5,fig2",
+        "--seeds",
+        "3",
+        "--out",
+        "r",
+    ]);
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    assert!(
+        outcome.out.contains("report.html (fig2, fig5)"),
+        "{}",
+        outcome.out
+    );
+    let page = read(&place.path("r/report.html"));
+    assert!(page.contains("<section id=\"fig5\">") && !page.contains("Not finished"));
+    for part in ["fig2", "fig5"] {
+        let numbers: Value =
+            serde_json::from_str(&read(&place.path(&format!("r/{part}/numbers.json")))).unwrap();
+        assert!(numbers.as_object().unwrap().len() > 10, "{part}");
+    }
+    let unknown = place.run(&["reproduce", "--only", "fig9"]);
+    assert_eq!(unknown.code, 2);
+    assert!(unknown.err.contains("fig2, fig3, fig4"), "{}", unknown.err);
+}
