@@ -50,13 +50,20 @@ struct Statement {
     holds: fn(&Measures) -> bool,
 }
 
-const ROLLS: Statement = Statement {
-    key: "rolls",
-    words: "The sheet rotates around its long axis while falling.",
-    condition: "at least one net turn about the long axis, which has most of the mean square spin",
-    kirchhoff: false,
-    holds: |m| m.rolls >= 1.0 && m.roll_share > 0.5,
-};
+const fn rolls(words: &'static str) -> Statement {
+    Statement {
+        key: "rolls",
+        words,
+        condition: "at least one net turn about the long axis, which has most of the mean square spin",
+        kirchhoff: false,
+        holds: |m| m.rolls >= 1.0 && m.roll_share > 0.5,
+    }
+}
+
+const ROLLS_75: Statement =
+    rolls("Released at 75 degrees it rotates around its long axis while falling.");
+const ROLLS_30: Statement =
+    rolls("Released at 30 degrees it rotates around its long axis while falling.");
 
 const SHEET: &[&str] = &[
     "fall_speed",
@@ -142,11 +149,11 @@ pub(crate) fn fig3(options: &Options, progress: &dyn Progress) -> Result<Section
         }
     }
     let scenes = [
-        sheet("paper-75", "(a) Released at 75 degrees", &[HELIX, ROLLS]),
+        sheet("paper-75", "(a) Released at 75 degrees", &[HELIX, ROLLS_75]),
         sheet(
             "paper-30",
             "(b) Released at 30 degrees",
-            &[SIDE_TO_SIDE, ROLLS],
+            &[SIDE_TO_SIDE, ROLLS_30],
         ),
     ];
     let mut section = Section::new("fig3", "Fig. 3: a sheet of paper in air");
@@ -368,10 +375,13 @@ fn drawn<'a>(shown: &Shown, ensembles: &'a [Ensemble]) -> Vec<(Reading, &'a Fall
         .collect()
 }
 
+/// A curve's name and what it shows of a state.
+type Part<'a> = (&'a str, &'a dyn Fn(&State) -> f64);
+
 /// Position, tilt and spin of the runs that are drawn.
 fn plot(section: &mut Section, shown: &Shown, axes: &Axes, ensembles: &[Ensemble]) {
     let runs = drawn(shown, ensembles);
-    let curves = |parts: &[(&str, &dyn Fn(&State) -> f64)]| -> Vec<Curve> {
+    let curves = |parts: &[Part<'_>]| -> Vec<Curve> {
         let mut curves = Vec::new();
         for (colour, (reading, fall)) in runs.iter().enumerate() {
             for (k, (name, value)) in parts.iter().enumerate() {

@@ -138,7 +138,10 @@ fn precomputation(section: &mut Section, progress: &dyn Progress) -> Result<(), 
             .map_err(|e| ReportError::Bake(BodyBakeError::from(e).into()))
     })?;
     let flow = FlowOptions::new(paper::TIMED_CELLS, 0.01, 1.0);
-    let turbulence = median_time(progress, || Ok(drop(turbulence_history(&flow, &())?)))?;
+    let turbulence = median_time(progress, || {
+        turbulence_history(&flow, &())?;
+        Ok(())
+    })?;
     let [nx, ny, nz] = paper::TIMED_CELLS;
     let mut row = |words: String, key: &str, paper: f64, here: f64| {
         let paper = section.quote(format!("{key}.paper"), 1e3 * paper, 3);
