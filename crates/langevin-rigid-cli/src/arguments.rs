@@ -75,7 +75,7 @@ pub(crate) struct Simulate {
     pub(crate) picture: Shown,
     /// Where it is seen from [default: front and side next to each other].
     #[arg(long, value_name = "SIDE")]
-    pub(crate) view: Option<Side>,
+    pub(crate) view: Option<Viewpoint>,
     /// Write a film into this folder as frame-00001.png, frame-00002.png, ...
     #[arg(long, value_name = "DIR")]
     pub(crate) frames: Option<PathBuf>,
@@ -95,7 +95,7 @@ pub(crate) enum Shown {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Side {
+pub(crate) enum Viewpoint {
     Front,
     Side,
     Top,

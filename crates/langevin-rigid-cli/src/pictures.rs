@@ -14,7 +14,7 @@ use langevin_rigid_formats::picture::{
 use langevin_rigid_formats::scene::Scene;
 use rayon::prelude::*;
 
-use crate::arguments::{Shown, Side, Simulate};
+use crate::arguments::{Shown, Simulate, Viewpoint};
 use crate::bars::Bars;
 
 /// Frames drawn at a time: all before them are written when a film is interrupted.
@@ -58,7 +58,7 @@ impl<'a> Shot<'a> {
                 interval: scene
                     .picture_interval
                     .filter(|_| options.picture != Shown::Path),
-                view: options.view.map_or(usual.view, Side::view),
+                view: options.view.map_or(usual.view, Viewpoint::view),
                 path: options.picture != Shown::Strobe,
                 max_instants: match options.picture {
                     Shown::Path => 0,
@@ -82,7 +82,7 @@ impl<'a> Shot<'a> {
     }
 }
 
-impl Side {
+impl Viewpoint {
     fn view(self) -> View {
         match self {
             Self::Front => View::Front,

@@ -5,7 +5,7 @@ use std::fmt;
 
 /// The numbers of a section by their keys: what its `numbers.json` holds.
 ///
-/// The page can only show a number that [`Numbers::quote`] has put here, so the two cannot differ.
+/// The page can only show a number that `quote` has put here, so the two cannot differ.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Numbers(BTreeMap<String, f64>);
 
