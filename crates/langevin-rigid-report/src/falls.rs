@@ -8,7 +8,7 @@ use langevin_rigid_formats::picture::View;
 use langevin_rigid_formats::trajectory;
 
 use crate::chart::{Chart, Curve};
-use crate::measures::{Axes, FIELDS, Field, Measures, norm};
+use crate::measures::{Axes, FIELDS, Field, Measures, Scale, norm};
 use crate::runs::{
     CONSISTENT, CONSISTENT_HISTORY, Fall, KIRCHHOFF, READINGS, Reading, SEPARATED, Setting, typical,
 };
@@ -24,7 +24,9 @@ const PARTLY: f64 = 0.1;
 pub(crate) const RULE: &str = "Verdicts follow from the numbers by one rule: what the paper says in \
     words is put as a condition on measures of the path, given with each statement. It is \
     <b>reproduced</b> under a reading if at least half of the seeds meet the condition, <b>partly</b> \
-    if at least a tenth, and <b>not</b> otherwise; a run that diverges does not meet it.";
+    if at least a tenth, and <b>not</b> otherwise; a run that diverges does not meet it. \
+    Where the paper has a motion at one release angle and not at the other, its condition is counted at \
+    both: a control of whether the angle decides.";
 
 /// A scene of a figure.
 struct Shown {
@@ -35,8 +37,7 @@ struct Shown {
     view: View,
     /// Keys of the measures in the table.
     columns: &'static [&'static str],
-    /// Swing that counts as one, in lengths of the body.
-    least_swing: f64,
+    scale: Scale,
     statements: &'static [Statement],
 }
 
@@ -47,6 +48,8 @@ struct Statement {
     condition: &'static str,
     /// Whether it is about Kirchhoff's equations alone, or about all other readings.
     kirchhoff: bool,
+    /// Whether it is counted without a verdict, to see what else meets a condition.
+    control: bool,
     holds: fn(&Measures) -> bool,
 }
 
@@ -56,6 +59,7 @@ const fn rolls(words: &'static str) -> Statement {
         words,
         condition: "at least one net turn about the long axis, which has most of the mean square spin",
         kirchhoff: false,
+        control: false,
         holds: |m| m.rolls >= 1.0 && m.roll_share > 0.5,
     }
 }
@@ -84,6 +88,7 @@ const HELIX: Statement = Statement {
     condition: "the path turns about the vertical at least once, and at least 70 % of its turning is \
                 in one sense",
     kirchhoff: false,
+    control: false,
     holds: |m| m.turns >= 1.0 && m.winding >= 0.7,
 };
 
@@ -93,6 +98,7 @@ const SIDE_TO_SIDE: Statement = Statement {
     condition: "at least two reversals of a quarter of the body's length or more, and at least one \
                 revolution end over end",
     kirchhoff: false,
+    control: false,
     holds: |m| m.reversals >= 2.0 && m.revolutions >= 1.0,
 };
 
@@ -101,6 +107,7 @@ const TURNS_FRONT: Statement = Statement {
     words: "The airplane turns front.",
     condition: "it turns nose over tail by at least a quarter turn",
     kirchhoff: false,
+    control: false,
     holds: |m| m.pitch_turn >= 90.0,
 };
 
@@ -110,25 +117,42 @@ const TURNS_SIDEWAYS: Statement = Statement {
     condition: "the heading of its path turns by at least a quarter turn, and the path leaves the vertical \
                 plane of the launch by a body length or more",
     kirchhoff: false,
+    control: false,
     holds: |m| m.heading_turn >= 90.0 && m.sideways >= 1.0,
 };
 
 const FLUTTERS: Statement = Statement {
     key: "flutters",
     words: "With Kirchhoff's equations alone the ellipsoid flutters a little, in one direction.",
-    condition: "at least one reversal of a twentieth of the body's length or more along the main \
+    condition: "at least two reversals of a fortieth of the body's length or more along the main \
                 direction and none across it, in swings narrower than the body is long",
     kirchhoff: true,
-    holds: |m| m.reversals >= 1.0 && m.cross_reversals == 0.0 && m.amplitude < 0.04,
+    control: false,
+    holds: |m| m.reversals >= 2.0 && m.cross_reversals == 0.0 && m.amplitude < 0.04,
 };
 
 const OSCILLATES: Statement = Statement {
     key: "oscillates",
     words: "The full method has oscillations in different directions.",
-    condition: "at least one reversal of a twentieth of the body's length or more in each of two \
+    condition: "at least two reversals of a fortieth of the body's length or more in each of two \
                 directions at right angles",
     kirchhoff: false,
-    holds: |m| m.reversals >= 1.0 && m.cross_reversals >= 1.0,
+    control: false,
+    holds: |m| m.reversals >= 2.0 && m.cross_reversals >= 2.0,
+};
+
+/// What the paper has at one release angle alone, counted at the other.
+const HELIX_AT_30: Statement = Statement {
+    key: "helix",
+    words: "Control: the helix of (a) at 30 degrees.",
+    control: true,
+    ..HELIX
+};
+const SIDE_TO_SIDE_AT_75: Statement = Statement {
+    key: "side-to-side",
+    words: "Control: the side-to-side tumbling of (b) at 75 degrees.",
+    control: true,
+    ..SIDE_TO_SIDE
 };
 
 /// The sheet at two release angles.
@@ -144,16 +168,20 @@ pub(crate) fn fig3(options: &Options, progress: &dyn Progress) -> Result<Section
             drawn: &[CONSISTENT, CONSISTENT_HISTORY, SEPARATED],
             view: View::Iso,
             columns: SHEET,
-            least_swing: 0.25,
+            scale: Scale::SHEET,
             statements,
         }
     }
     let scenes = [
-        sheet("paper-75", "(a) Released at 75 degrees", &[HELIX, ROLLS_75]),
+        sheet(
+            "paper-75",
+            "(a) Released at 75 degrees",
+            &[HELIX, ROLLS_75, SIDE_TO_SIDE_AT_75],
+        ),
         sheet(
             "paper-30",
             "(b) Released at 30 degrees",
-            &[SIDE_TO_SIDE, ROLLS_30],
+            &[SIDE_TO_SIDE, ROLLS_30, HELIX_AT_30],
         ),
     ];
     let mut section = Section::new("fig3", "Fig. 3: a sheet of paper in air");
@@ -180,7 +208,7 @@ pub(crate) fn fig4(options: &Options, progress: &dyn Progress) -> Result<Section
             "rolls",
             "spin",
         ],
-        least_swing: 0.25,
+        scale: Scale::SHEET,
         statements: &[TURNS_FRONT, TURNS_SIDEWAYS],
     };
     let mut section = Section::new("fig4", "Fig. 4: a paper airplane");
@@ -205,7 +233,7 @@ pub(crate) fn fig5(options: &Options, progress: &dyn Progress) -> Result<Section
             "rolls",
             "spin",
         ],
-        least_swing: 0.05,
+        scale: Scale::ELLIPSOID,
         statements: &[FLUTTERS, OSCILLATES],
     };
     let mut section = Section::new("fig5", "Fig. 5: a rubber ellipsoid in water");
@@ -251,9 +279,7 @@ fn add_scenes(
                 let falls = setting.falls(reading, options, progress)?;
                 let measures = falls
                     .iter()
-                    .map(|f| {
-                        (!f.diverged()).then(|| Measures::new(&axes, &f.states, shown.least_swing))
-                    })
+                    .map(|f| (!f.diverged()).then(|| Measures::new(&axes, &f.states, &shown.scale)))
                     .collect();
                 Ok(Ensemble {
                     reading: *reading,
@@ -301,6 +327,14 @@ fn judge(section: &mut Section, shown: &Shown, statement: &Statement, ensembles:
         );
         let words = ensemble.reading.words();
         by_verdict[verdict].push(format!("<i>{words}</i> ({held} of {seeds})"));
+    }
+    if statement.control {
+        let counts = by_verdict.concat().join("; ");
+        section.claim(Claim {
+            words: statement.words.to_owned(),
+            verdict: format!("The condition is met under {counts}."),
+        });
+        return;
     }
     let best = by_verdict.iter().position(|v| !v.is_empty()).unwrap_or(2);
     let mut verdict = format!(

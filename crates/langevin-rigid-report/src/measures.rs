@@ -1,15 +1,34 @@
 //! What a fall is, in numbers: does it wind, swing, turn over, roll?
 //!
-//! The path is smoothed first by a moving average over [`WINDOW`], so that the step-to-step noise does
-//! not count as motion.
+//! The path is smoothed first by a moving average, so that the step-to-step noise does not count as
+//! motion.
 
 use langevin_rigid::linalg::{Vec3, eigen_symmetric, rotate};
 use langevin_rigid::{Body, State};
 use langevin_rigid_formats::ensemble::MotionTracker;
 use std::f64::consts::{PI, TAU};
 
-/// Width of the moving average over the path (s).
-pub(crate) const WINDOW: f64 = 0.1;
+/// What is too small to count as motion.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scale {
+    /// Width of the moving average over the path (s).
+    pub(crate) window: f64,
+    /// Least swing between two reversals, in lengths of the body.
+    pub(crate) least_swing: f64,
+}
+
+impl Scale {
+    /// For sheets of some centimetres in air.
+    pub(crate) const SHEET: Self = Self {
+        window: 0.1,
+        least_swing: 0.25,
+    };
+    /// For the ellipsoid, whose flutter is faster and narrower.
+    pub(crate) const ELLIPSOID: Self = Self {
+        window: 0.03,
+        least_swing: 0.025,
+    };
+}
 
 /// The body's own directions, body frame, and its length.
 #[derive(Debug, Clone, Copy)]
@@ -129,17 +148,17 @@ pub(crate) const FIELDS: &[Field] = &[
 ];
 
 impl Measures {
-    /// Of the states of a fall a constant step apart; reversals count beyond `least` body lengths.
-    pub(crate) fn new(axes: &Axes, states: &[State], least: f64) -> Self {
+    /// Of the states of a fall a constant step apart.
+    pub(crate) fn new(axes: &Axes, states: &[State], scale: &Scale) -> Self {
         let (Some(first), Some(last)) = (states.first(), states.last()) else {
             return Self::default();
         };
         let duration = (last.time - first.time).max(f64::MIN_POSITIVE);
         let drop = first.position[1] - last.position[1];
-        let track = smoothed(states);
+        let track = smoothed(states, scale.window);
         let heading = Heading::new(&track);
         let net = heading.net.abs();
-        let swings = Swings::new(&track, least * axes.length);
+        let swings = Swings::new(&track, scale.least_swing * axes.length);
         Self {
             fall_speed: drop / duration,
             drift: libm::hypot(
@@ -196,15 +215,15 @@ pub(crate) fn norm(a: Vec3) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The horizontal path (x, z) as the moving average over [`WINDOW`], narrower near the ends.
-fn smoothed(states: &[State]) -> Vec<[f64; 2]> {
+/// The horizontal path (x, z) as the moving average over `window` (s), narrower near the ends.
+fn smoothed(states: &[State], window: f64) -> Vec<[f64; 2]> {
     let n = states.len();
     let step = if n > 1 {
         states[1].time - states[0].time
     } else {
         1.0
     };
-    let half = (0.5 * WINDOW / step) as usize;
+    let half = (0.5 * window / step) as usize;
     (0..n)
         .map(|i| {
             let reach = half.min(i).min(n - 1 - i);
@@ -382,7 +401,7 @@ mod tests {
                 0.3 * libm::sin(rate * t),
             ]
         };
-        let m = Measures::new(&AXES, &states(helix, 0.0), 0.25);
+        let m = Measures::new(&AXES, &states(helix, 0.0), &Scale::SHEET);
         assert!((m.turns - 3.0).abs() < 0.02, "{m:?}");
         assert!((m.radius - 0.3).abs() < 0.01, "{m:?}");
         assert!((m.pitch - 3.2 / 3.0).abs() < 0.02, "{m:?}");
@@ -399,7 +418,7 @@ mod tests {
             let s = 0.1 * libm::sin(TAU * t);
             [s + 0.05 * t, -t, s]
         };
-        let m = Measures::new(&AXES, &states(swing, 0.0), 0.25);
+        let m = Measures::new(&AXES, &states(swing, 0.0), &Scale::SHEET);
         assert_eq!((m.reversals, m.cross_reversals), (8.0, 0.0), "{m:?}");
         assert!(
             m.winding < 0.2 && (m.amplitude - 0.14).abs() < 0.01,
@@ -410,7 +429,7 @@ mod tests {
 
     #[test]
     fn a_roll_turns_about_the_long_axis_and_over() {
-        let m = Measures::new(&AXES, &states(|t| [0.0, -t, 0.0], TAU), 0.25);
+        let m = Measures::new(&AXES, &states(|t| [0.0, -t, 0.0], TAU), &Scale::SHEET);
         assert!(
             (m.rolls - 4.0).abs() < 1e-9 && m.roll_share > 0.999,
             "{m:?}"

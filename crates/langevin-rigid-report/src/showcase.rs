@@ -6,7 +6,7 @@ use langevin_rigid_formats::scene::BUILT_IN;
 use langevin_rigid_formats::trajectory;
 
 use crate::chart::escape;
-use crate::measures::{Axes, Measures};
+use crate::measures::{Axes, Measures, Scale};
 use crate::runs::{Reading, Setting};
 use crate::section::Section;
 use crate::{Options, ReportError};
@@ -39,7 +39,11 @@ pub(crate) fn section(options: &Options, progress: &dyn Progress) -> Result<Sect
         let name = built_in.name;
         let title = format!("{name} ({}, seed {})", reading.words(), fall.seed);
         let picture = setting.picture(fall, title, View::FrontAndSide, None)?;
-        let measures = Measures::new(&Axes::new(&setting.baked.bake.body), &fall.states, 0.25);
+        let measures = Measures::new(
+            &Axes::new(&setting.baked.bake.body),
+            &fall.states,
+            &Scale::SHEET,
+        );
         let speed = section.quote(format!("{name}.fall_speed"), measures.fall_speed, 3);
         let revolutions = section.quote(format!("{name}.revolutions"), measures.revolutions, 3);
         let caption = format!(
