@@ -2,8 +2,8 @@
 
 use langevin_rigid::turbulence::TurbulenceHistory;
 use langevin_rigid::{
-    Bake, Body, Fluid, Integrator, Model, NoiseStream, Settings, State, Stepper, TurbulenceSource,
-    UnitSystem,
+    Bake, Body, Fluid, Integrator, Model, NoiseStream, SPEED_LIMIT, Settings, State, Stepper,
+    TurbulenceSource, UnitSystem,
 };
 use langevin_rigid_bake::body::{BodySpec, bake_body};
 use langevin_rigid_bake::progress::Progress;
@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 use crate::chart::{Chart, Curve};
 use crate::measures::{Axes, norm};
+use crate::numbers::significant;
 use crate::runs::{CONSISTENT, CONSISTENT_HISTORY, Reading, Setting};
 use crate::section::{Section, figure};
 use crate::{Options, ReportError, paper};
@@ -139,7 +140,8 @@ fn units(
     section.text(format!(
         "The Langevin terms are accelerations that are divided by mass and inertia, so that the result \
          depends on the units. The sheet of Fig. 3 with the precomputed turbulence: time at which it passes \
-         10<sup>6</sup> m/s or rad/s, if it does within {END} s (first seed).",
+         {} m/s or rad/s, if it does within {END} s (first seed).",
+        significant(SPEED_LIMIT, 1)
     ));
     let setting = Setting::new("paper-75", options, progress)?;
     let mut rows = Vec::new();

@@ -336,16 +336,20 @@ fn judge(section: &mut Section, shown: &Shown, statement: &Statement, ensembles:
         });
         return;
     }
-    let best = by_verdict.iter().position(|v| !v.is_empty()).unwrap_or(2);
-    let mut verdict = format!(
-        "<b>{}.</b>",
-        ["Reproduced", "Partly reproduced", "Not reproduced"][best]
-    );
-    for (name, readings) in ["Reproduced", "Partly", "Not"].iter().zip(&by_verdict) {
-        if !readings.is_empty() {
-            // Writing to a string cannot fail.
-            let _ = write!(verdict, " {name} under {}.", readings.join("; "));
-        }
+    // The best verdict leads, in full.
+    let mut verdict = String::new();
+    for (k, readings) in by_verdict.iter().enumerate().filter(|(_, r)| !r.is_empty()) {
+        let name = if verdict.is_empty() {
+            [
+                "<b>Reproduced</b>",
+                "<b>Partly reproduced</b>",
+                "<b>Not reproduced</b>",
+            ][k]
+        } else {
+            ["", " Partly", " Not"][k]
+        };
+        // Writing to a string cannot fail.
+        let _ = write!(verdict, "{name} under {}.", readings.join("; "));
     }
     let _ = write!(
         verdict,

@@ -249,9 +249,9 @@ fn verdicts_follow_from_the_counts() {
             let counts: Vec<f64> = quoted(&claim.verdict).iter().map(|q| q.1).collect();
             let best = counts.chunks(2).map(|c| c[0] / c[1]).fold(0.0, f64::max);
             let wanted = match best {
-                share if share >= 0.5 => "<b>Reproduced.</b>",
-                share if share >= 0.1 => "<b>Partly reproduced.</b>",
-                _ => "<b>Not reproduced.</b>",
+                share if share >= 0.5 => "<b>Reproduced</b> under",
+                share if share >= 0.1 => "<b>Partly reproduced</b> under",
+                _ => "<b>Not reproduced</b> under",
             };
             assert!(
                 claim.verdict.starts_with(wanted),
