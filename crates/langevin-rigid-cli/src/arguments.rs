@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use langevin_rigid::{Model, TurbulenceSource};
 use langevin_rigid_formats::mesh::LengthUnit;
+use langevin_rigid_report::{PARTS, Part};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -31,6 +32,7 @@ pub(crate) enum Command {
     AddedMass(AddedMass),
     Turbulence(Turbulence),
     Bake(Bake),
+    Reproduce(Reproduce),
     /// List the built-in scenes.
     Scenes,
 }
@@ -44,6 +46,8 @@ Examples:
   langevin-rigid simulate paper-75 --seed 7 --out drop7
   langevin-rigid simulate my-scene.toml --duration 3 --json
   langevin-rigid simulate ellipsoid-water --model kirchhoff
+  langevin-rigid simulate business-card --picture strobe --view iso
+  langevin-rigid simulate business-card --view front --frames frames
 
 Writes into DIR: trajectory.csv (world frame; metres, seconds, radians), trajectory.png,
 summary.json and scene.toml, the scene with every choice spelled out.")]
@@ -69,9 +73,36 @@ pub(crate) struct Simulate {
     /// Source of turbulence: body-driven, wake-age=LENGTHS or history.
     #[arg(long, value_name = "SOURCE")]
     pub(crate) turbulence: Option<TurbulenceSource>,
+    /// What the picture shows: the body at equal times, its path, or both.
+    #[arg(long, value_name = "WHAT", default_value = "both")]
+    pub(crate) picture: Shown,
+    /// Where it is seen from [default: front and side next to each other].
+    #[arg(long, value_name = "SIDE")]
+    pub(crate) view: Option<Viewpoint>,
+    /// Write a film into this folder as frame-00001.png, frame-00002.png, ...
+    #[arg(long, value_name = "DIR")]
+    pub(crate) frames: Option<PathBuf>,
+    /// Frames a second of the film.
+    #[arg(long, value_name = "N", default_value = "60", value_parser = positive, requires = "frames")]
+    pub(crate) fps: f64,
     /// Print the summary as JSON.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Shown {
+    Strobe,
+    Path,
+    Both,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Viewpoint {
+    Front,
+    Side,
+    Top,
+    Iso,
 }
 
 /// Drop the body of a scene many times and write the statistics of its falls.
@@ -201,6 +232,38 @@ pub(crate) struct Bake {
     /// File to write [default: SCENE.lrbake].
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+}
+
+/// Compute the paper's results again and write them as one page beside what the paper states.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid reproduce
+  langevin-rigid reproduce --only fig3,fig5 --seeds 20
+
+Writes into DIR: report.html, which needs no other file and no network, and a folder of raw data for
+each part: numbers.json with every number of the page, tables as CSV, pictures as PNG. Each part is
+written when it is finished; Ctrl-C keeps those that are.")]
+pub(crate) struct Reproduce {
+    /// Folder for the results.
+    #[arg(long, value_name = "DIR", default_value = "out/reproduce")]
+    pub(crate) out: PathBuf,
+    /// Parts to compute, with commas between them [default: all].
+    #[arg(long, value_name = "PART", value_delimiter = ',', value_parser = part)]
+    pub(crate) only: Vec<Part>,
+    /// Seeds of each ensemble.
+    #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) seeds: u32,
+    /// The first seed.
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub(crate) seed: u64,
+}
+
+fn part(name: &str) -> Result<Part, String> {
+    Part::named(name).ok_or_else(|| {
+        let known: Vec<&str> = PARTS.iter().map(|p| p.name).collect();
+        format!("the parts are {}", known.join(", "))
+    })
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -8,7 +8,7 @@ use langevin_rigid_formats::scene::Scene;
 
 const VARIABLE: &str = "LANGEVIN_RIGID_CACHE";
 
-fn folder() -> Option<PathBuf> {
+pub(crate) fn folder() -> Option<PathBuf> {
     let named = std::env::var_os(VARIABLE)
         .filter(|v| !v.is_empty())
         .map(PathBuf::from);

@@ -6,7 +6,9 @@ mod bake;
 mod bars;
 mod cache;
 mod ensemble;
+mod pictures;
 mod regimes;
+mod reproduce;
 mod scenes;
 mod simulate;
 mod summary;
@@ -32,6 +34,7 @@ fn main() -> ExitCode {
         Command::AddedMass(options) => added_mass::added_mass(options, &bars),
         Command::Turbulence(options) => turbulence::turbulence(options, &bars),
         Command::Bake(options) => bake::bake(options, &bars),
+        Command::Reproduce(options) => reproduce::reproduce(options, &bars),
         Command::Scenes => scenes::scenes(),
     };
     bars.clear();

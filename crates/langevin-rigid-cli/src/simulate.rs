@@ -12,13 +12,13 @@ use langevin_rigid::{
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::advance::advance;
 use langevin_rigid_formats::baking::{self, Baked};
-use langevin_rigid_formats::picture::{PictureOptions, Pose, Subject, trajectory_picture};
 use langevin_rigid_formats::scene::{self, Scene};
 use langevin_rigid_formats::{files, trajectory};
 
 use crate::arguments::Simulate;
 use crate::bars::Bars;
 use crate::cache;
+use crate::pictures::{self, Shot};
 use crate::summary::Summary;
 
 pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
@@ -44,9 +44,17 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     summary.seconds.bake = bake_seconds;
     summary.seconds.run = run_seconds;
     summary.seconds.per_step = run_seconds / summary.steps.max(1) as f64;
-    write_all(&folder, &scene, &baked, &states, &mut summary)?;
+    let shot = Shot::new(options, &scene, &baked, &states);
+    write_all(&folder, &scene, &states, &shot, &mut summary)?;
+    let film = match &options.frames {
+        Some(folder) => Some(pictures::film(&shot, folder, options.fps, bars)?),
+        None => None,
+    };
     bars.clear();
     tell(options, &folder, &summary)?;
+    if let Some(film) = film {
+        film.tell(options.json)?;
+    }
     if let Err(error) = ended {
         bail!(
             "{error}\nthe {} states before it are in {}",
@@ -154,8 +162,8 @@ fn ending_name(ended: &Result<Ending, StepError>) -> &'static str {
 fn write_all(
     folder: &Path,
     scene: &Scene,
-    baked: &Baked,
     states: &[State],
+    shot: &Shot<'_>,
     summary: &mut Summary,
 ) -> Result<()> {
     let started = Instant::now();
@@ -167,7 +175,7 @@ fn write_all(
     summary.seconds.write = started.elapsed().as_secs_f64();
 
     let started = Instant::now();
-    match picture(scene, baked, states, summary) {
+    match shot.picture() {
         Ok(png) => files::write(&folder.join("trajectory.png"), &png)?,
         Err(error) => summary.warnings.push(format!("no picture: {error}")),
     }
@@ -184,30 +192,6 @@ pub(crate) fn resolved(scene: &Scene) -> Result<String> {
         *path = std::path::absolute(&path)?;
     }
     Ok(scene.to_toml()?)
-}
-
-fn picture(scene: &Scene, baked: &Baked, states: &[State], summary: &Summary) -> Result<Vec<u8>> {
-    let surface = &baked.bake.body.surface;
-    let subject = Subject {
-        vertices: &surface.vertices,
-        triangles: &surface.triangles,
-    };
-    let poses: Vec<Pose> = states
-        .iter()
-        .map(|s| Pose {
-            time: s.time,
-            position: s.position,
-            orientation: s.orientation,
-        })
-        .collect();
-    let title = format!("{} ({}, seed {})", scene.name, summary.model, summary.seed);
-    let options = PictureOptions {
-        title: Some(title),
-        ground: scene.stop.ground,
-        interval: scene.picture_interval,
-        ..PictureOptions::default()
-    };
-    Ok(trajectory_picture(&subject, &poses, &options)?.png()?)
 }
 
 fn tell(options: &Simulate, folder: &Path, summary: &Summary) -> Result<()> {

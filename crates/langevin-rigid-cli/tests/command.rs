@@ -439,3 +439,67 @@ fn the_command_line_itself_is_checked() {
     let help = place.run(&["simulate", "--help"]);
     assert!(help.code == 0 && help.out.contains("Examples"));
 }
+
+#[test]
+fn a_film_is_numbered_and_of_one_size() {
+    let place = Place::new();
+    let scene = place.write("ball.toml", &scene(BALL, "duration = 0.2"));
+    let outcome = place.run(&[
+        "simulate",
+        &scene,
+        "--view",
+        "side",
+        "--picture",
+        "strobe",
+        "--frames",
+        "film",
+        "--fps",
+        "30",
+    ]);
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    assert!(
+        outcome.out.contains("ffmpeg -framerate 30 -i"),
+        "{}",
+        outcome.out
+    );
+    // Width and height are in a PNG's first 24 bytes.
+    let head = |n: u32| {
+        let png = std::fs::read(place.path(&format!("film/frame-{n:05}.png"))).unwrap();
+        png[16..24].to_vec()
+    };
+    assert!((2..=7).all(|n| head(n) == head(1)));
+    assert_eq!(std::fs::read_dir(place.path("film")).unwrap().count(), 7);
+    let refused = place.run(&["simulate", &scene, "--frames", "film", "--fps", "1e9"]);
+    refused.fails_with(&["frames a second", "at most 99999"]);
+    assert_eq!(place.run(&["simulate", &scene, "--fps", "30"]).code, 2);
+}
+
+#[test]
+fn reproduce_writes_a_page_and_its_data() {
+    let place = Place::new();
+    let outcome = place.run(&[
+        "reproduce",
+        "--only",
+        "fig5,fig2",
+        "--seeds",
+        "3",
+        "--out",
+        "r",
+    ]);
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    assert!(
+        outcome.out.contains("report.html (fig2, fig5)"),
+        "{}",
+        outcome.out
+    );
+    let page = read(&place.path("r/report.html"));
+    assert!(page.contains("<section id=\"fig5\">") && !page.contains("Not finished"));
+    for part in ["fig2", "fig5"] {
+        let numbers: Value =
+            serde_json::from_str(&read(&place.path(&format!("r/{part}/numbers.json")))).unwrap();
+        assert!(numbers.as_object().unwrap().len() > 10, "{part}");
+    }
+    let unknown = place.run(&["reproduce", "--only", "fig9"]);
+    assert_eq!(unknown.code, 2);
+    assert!(unknown.err.contains("fig2, fig3, fig4"), "{}", unknown.err);
+}

@@ -8,6 +8,7 @@
 mod axes;
 mod camera;
 mod canvas;
+mod film;
 mod font;
 mod hull;
 mod labels;
@@ -27,12 +28,13 @@ mod strobe;
 mod vector;
 
 use canvas::Canvas;
+pub use film::Film;
 use hull::Hull;
 use layout::Layout;
 use motion::Motion;
 pub use regimes::regime_map;
+use scene::Trail;
 use solid::Solid;
-use strobe::Instants;
 
 /// Where the body is at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,10 +92,12 @@ pub struct PictureOptions {
     /// Time between two instants, s; `None` chooses the shortest at which bodies stay apart.
     /// With a time given, bodies are drawn at all its multiples, up to 256 of them.
     pub interval: Option<f64>,
+    /// Whether the path is drawn.
+    pub path: bool,
 }
 
 impl Default for PictureOptions {
-    /// Front and side view, size chosen, no title, no ground, at most 32 instants.
+    /// Front and side view, size chosen, no title, no ground, the path and at most 32 instants.
     fn default() -> Self {
         Self {
             size: None,
@@ -102,6 +106,7 @@ impl Default for PictureOptions {
             ground: None,
             max_instants: 32,
             interval: None,
+            path: true,
         }
     }
 }
@@ -155,6 +160,18 @@ pub enum PictureError {
         width: u32,
         /// Height asked for, pixels.
         height: u32,
+    },
+    /// The film cannot be divided into frames.
+    #[error(
+        "{fps} frames a second of {duration} s make no film: ask for a positive rate and at most \
+         {} frames",
+        Film::MOST_FRAMES
+    )]
+    FrameRate {
+        /// Frames a second asked for.
+        fps: f64,
+        /// Duration of the motion, s.
+        duration: f64,
     },
     /// The font that is part of this library cannot be read.
     #[error("the built-in font cannot be read: this build is damaged, build it again")]
@@ -282,7 +299,26 @@ pub fn trajectory_picture(
         }),
     };
     let mut canvas = Canvas::new(layout.size)?;
-    draw(&mut canvas, &layout, &solid, &motion, &instants, options);
+    let trail = if options.path {
+        Trail::Whole
+    } else {
+        Trail::None
+    };
+    for panel in &layout.panels {
+        axes::draw(&mut canvas, &layout, panel, &axes::Ticks::new(&layout));
+        scene::draw(
+            &mut canvas,
+            &layout,
+            panel,
+            &solid,
+            &motion,
+            &instants,
+            trail,
+        );
+    }
+    let words = legend::caption(&layout, &instants);
+    legend::draw_header(&mut canvas, &layout, options.title.as_deref(), &words);
+    legend::draw_legend(&mut canvas, &layout, &solid, &motion, options.path);
     Ok(Picture {
         size: layout.size,
         rgba: canvas.into_rgba(),
@@ -299,21 +335,4 @@ fn crowded(layout: &Layout, solid: &Solid, motion: &Motion<'_>, times: &[f64]) -
         let hulls: Vec<Hull> = times.iter().map(|t| hull(t).grown(apart)).collect();
         strobe::crowded(&hulls)
     })
-}
-
-fn draw(
-    canvas: &mut Canvas,
-    layout: &Layout,
-    solid: &Solid,
-    motion: &Motion<'_>,
-    instants: &Instants,
-    options: &PictureOptions,
-) {
-    let ticks = axes::Ticks::new(layout);
-    for panel in &layout.panels {
-        axes::draw(canvas, layout, panel, &ticks);
-        scene::draw(canvas, layout, panel, solid, motion, instants);
-    }
-    legend::draw_header(canvas, layout, options.title.as_deref(), instants);
-    legend::draw_legend(canvas, layout, solid, motion);
 }

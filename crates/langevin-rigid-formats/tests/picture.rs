@@ -6,7 +6,7 @@
 //! order, words that are not there, or a picture that is not the same every time.
 
 use langevin_rigid_formats::picture::{
-    Picture, PictureError, PictureOptions, Pose, Subject, View, trajectory_picture,
+    Film, Picture, PictureError, PictureOptions, Pose, Subject, View, trajectory_picture,
 };
 
 const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -376,5 +376,59 @@ fn degenerate_bodies_and_motions_are_drawn() {
                 assert!(!picture.times().is_empty());
             }
         }
+    }
+}
+
+#[test]
+fn a_picture_shows_bodies_or_path_or_both() {
+    let purple = |options: &PictureOptions| {
+        let picture = draw(&SHEET, &descent(), options);
+        // Above the key, which has the path's colours too.
+        let rows = picture.height() as usize - 120;
+        (0..rows * picture.width() as usize)
+            .map(|i| {
+                pixel(
+                    &picture,
+                    i % picture.width() as usize,
+                    i / picture.width() as usize,
+                )
+            })
+            .filter(|[r, g, b]| *b > g.saturating_add(50) && *r > g.saturating_add(10))
+            .count()
+    };
+    let both = seen(View::Iso);
+    let bodies = PictureOptions {
+        path: false,
+        ..both.clone()
+    };
+    assert!(purple(&both) > 200);
+    assert_eq!(purple(&bodies), 0);
+    let picture = draw(&SHEET, &descent(), &bodies);
+    assert!(picture.times().len() > 3);
+}
+
+#[test]
+fn a_film_has_one_camera_and_one_body_a_frame() {
+    let poses = descent();
+    let film = |fps| Film::new(&SHEET, &poses, &seen(View::Front), fps);
+    let film_25 = film(25.0).unwrap();
+    assert_eq!(film_25.frames(), 51);
+    let (first, last) = (film_25.frame(0).unwrap(), film_25.frame(50).unwrap());
+    assert_eq!((first.times(), last.times()), (&[0.0][..], &[2.0][..]));
+    assert_eq!([first.width() % 2, first.height() % 2], [0, 0]);
+    // The body is in the upper part of the first frame and in the lower of the last.
+    let rows = |picture: &Picture| {
+        let width = picture.width() as usize;
+        let rows: Vec<usize> = (100 * width..(picture.height() as usize - 120) * width)
+            .filter(|i| is_orange(pixel(picture, i % width, i / width)))
+            .map(|i| i / width)
+            .collect();
+        (*rows.first().unwrap(), *rows.last().unwrap())
+    };
+    let third = first.height() as usize / 3;
+    assert!(rows(&first).1 < third && rows(&last).0 > 2 * third - 60);
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
+        let error = film(bad).unwrap_err();
+        assert!(matches!(error, PictureError::FrameRate { .. }), "{error}");
     }
 }

@@ -24,26 +24,15 @@ const SWATCH: f64 = 17.0;
 const SPACE: f64 = 10.0;
 const BETWEEN: f64 = 30.0;
 
-/// Writes title and caption above the panels.
-pub(super) fn draw_header(
-    canvas: &mut Canvas,
-    layout: &Layout,
-    title: Option<&str>,
-    instants: &Instants,
-) {
+/// Writes title and caption (`words`) above the panels.
+pub(super) fn draw_header(canvas: &mut Canvas, layout: &Layout, title: Option<&str>, words: &str) {
     let at = layout.caption(title.is_some());
     if let Some(title) = title {
         draw_title(canvas, layout, title);
     }
     let base = at[1] + TEXT_SIZE * layout.unit;
-    let words = caption(layout, instants);
-    let style = shrunk(
-        canvas,
-        layout,
-        &words,
-        style(layout, TEXT_SIZE, Align::Left),
-    );
-    canvas.text(&words, [at[0], base], &style);
+    let style = shrunk(canvas, layout, words, style(layout, TEXT_SIZE, Align::Left));
+    canvas.text(words, [at[0], base], &style);
 }
 
 fn draw_title(canvas: &mut Canvas, layout: &Layout, title: &str) {
@@ -73,12 +62,18 @@ fn shrunk(canvas: &Canvas, layout: &Layout, text: &str, style: TextStyle) -> Tex
     TextStyle { size, ..style }
 }
 
-fn caption(layout: &Layout, instants: &Instants) -> String {
-    let size = if layout.magnification > 1.0 {
+/// How large the body is drawn.
+pub(super) fn size(layout: &Layout) -> String {
+    if layout.magnification > 1.0 {
         format!("magnified {}\u{d7}", short(layout.magnification))
     } else {
         "drawn to scale".to_owned()
-    };
+    }
+}
+
+/// What is drawn, in words.
+pub(super) fn caption(layout: &Layout, instants: &Instants) -> String {
+    let size = size(layout);
     match (instants.times.as_slice(), instants.interval) {
         ([], _) => "The path of the body".to_owned(),
         ([time], _) => format!("The body at {} s, {size}", short(*time)),
@@ -92,10 +87,12 @@ pub(super) fn draw_legend(
     layout: &Layout,
     solid: &Solid,
     motion: &Motion<'_>,
+    path: bool,
 ) {
     let mut key = Key {
         layout,
         unit: layout.unit,
+        path,
     };
     let mut entries = key.entries(solid, motion);
     let area = layout.legend();
@@ -119,6 +116,8 @@ pub(super) fn draw_legend(
 struct Key<'a> {
     layout: &'a Layout,
     unit: f64,
+    /// Whether there is a path to explain.
+    path: bool,
 }
 
 /// A sign of the key and the words beside it.
@@ -140,7 +139,7 @@ enum Sign {
 impl Key<'_> {
     fn entries(&self, solid: &Solid, motion: &Motion<'_>) -> Vec<Entry> {
         let mut entries = Vec::new();
-        if motion.end() > motion.start() {
+        if self.path && motion.end() > motion.start() {
             entries.push(Entry {
                 sign: Sign::Path {
                     start: format!("{} s", short(motion.start())),

@@ -53,6 +53,15 @@ enum Item<'a, 'b> {
     Body(&'b Body<'a>),
 }
 
+/// How much of the path is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Trail {
+    None,
+    Whole,
+    /// As far as the body has come at this time, seconds; without labels, as in a film.
+    Until(f64),
+}
+
 /// Draws path and bodies in one panel.
 pub(super) fn draw(
     canvas: &mut Canvas,
@@ -61,13 +70,14 @@ pub(super) fn draw(
     solid: &Solid,
     motion: &Motion<'_>,
     instants: &Instants,
+    trail: Trail,
 ) {
     let bodies: Vec<Body<'_>> = instants
         .times
         .iter()
         .map(|t| body(layout, panel, solid, motion.at(*t)))
         .collect();
-    let places = places(layout, panel, motion);
+    let places = places(layout, panel, motion, trail);
     let pieces = pieces(layout, solid, &places, &bodies);
     if panel.camera.direction == Direction::Iso {
         let placements: Vec<Placement> = bodies.iter().map(|b| b.placement).collect();
@@ -75,7 +85,13 @@ pub(super) fn draw(
         shadows::draw(canvas, layout, panel, solid, &placements, &path);
     }
     paint(canvas, layout, &pieces, &bodies);
-    let marks = draw_marks(canvas, layout, panel, motion);
+    if let Trail::Until(_) = trail {
+        return;
+    }
+    let marks = match trail {
+        Trail::Whole => draw_marks(canvas, layout, panel, motion),
+        _ => Vec::new(),
+    };
     let hulls: Vec<Hull> = bodies.iter().map(|b| b.hull).collect();
     let path: Vec<Point> = pieces.iter().flat_map(|p| p.points.clone()).collect();
     let obstacles = Obstacles {
@@ -106,25 +122,33 @@ struct Place {
 }
 
 /// The points of the path a visible distance apart.
-fn places(layout: &Layout, panel: &Panel, motion: &Motion<'_>) -> Vec<Place> {
-    let duration = (motion.end() - motion.start()).max(f64::MIN_POSITIVE);
+fn places(layout: &Layout, panel: &Panel, motion: &Motion<'_>, trail: Trail) -> Vec<Place> {
+    let poses = motion.poses();
+    let until = match trail {
+        Trail::None => return Vec::new(),
+        Trail::Whole => motion.end(),
+        Trail::Until(time) => time,
+    };
+    let place = |position: [f64; 3], time: f64| Place {
+        world: position,
+        on_page: panel.place(position),
+        when: (time - motion.start()) / duration(motion),
+    };
     let least = 0.4 * layout.unit;
     let mut places: Vec<Place> = Vec::new();
-    let last = motion.poses().len() - 1;
-    for (index, pose) in motion.poses().iter().enumerate() {
-        let on_page = panel.place(pose.position);
-        let far = places
-            .last()
-            .is_none_or(|p| norm(sub(p.on_page, on_page)) >= least);
-        if far || index == last {
-            places.push(Place {
-                world: pose.position,
-                on_page,
-                when: (pose.time - motion.start()) / duration,
-            });
+    for pose in poses.iter().take_while(|p| p.time < until) {
+        let next = place(pose.position, pose.time);
+        let far = |p: &Place| norm(sub(p.on_page, next.on_page)) >= least;
+        if places.last().is_none_or(far) {
+            places.push(next);
         }
     }
+    places.push(place(motion.at(until).position, until));
     places
+}
+
+fn duration(motion: &Motion<'_>) -> f64 {
+    (motion.end() - motion.start()).max(f64::MIN_POSITIVE)
 }
 
 fn pieces(layout: &Layout, solid: &Solid, places: &[Place], bodies: &[Body<'_>]) -> Vec<Piece> {

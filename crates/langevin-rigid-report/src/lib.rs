@@ -1,0 +1,224 @@
+//! The results of the paper, computed again: one page with pictures, curves and tables beside what
+//! the paper states, and the raw data next to it.
+//!
+//! [`reproduce`] computes the parts in turn and writes each as soon as it is finished, so that an
+//! interruption costs the part under way and no more. Every number is a result of the runs; what
+//! the paper and other sources state is in one place, `paper.rs`. Verdicts follow from the numbers
+//! by the rule that the page states. Numbers depend on the options alone, but for wall-clock times.
+
+mod chart;
+mod coin;
+mod departures;
+mod falls;
+mod fig2;
+mod html;
+mod machine;
+mod measures;
+mod numbers;
+mod paper;
+mod regimes;
+mod runs;
+mod section;
+mod showcase;
+mod spread;
+mod table2;
+
+use std::path::{Path, PathBuf};
+
+use langevin_rigid::SetupError;
+use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_bake::turbulence::TurbulenceError;
+use langevin_rigid_formats::baking::SceneBakeError;
+use langevin_rigid_formats::files::{self, WriteError};
+use langevin_rigid_formats::picture::PictureError;
+use langevin_rigid_formats::scene::FindError;
+
+pub use numbers::Numbers;
+pub use section::{Claim, Section};
+
+/// What to compute.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// The parts, in the order of the page.
+    pub parts: Vec<Part>,
+    /// Seeds of each ensemble, one or more.
+    pub seeds: u32,
+    /// The first of them.
+    pub first_seed: u64,
+    /// Where bakes are kept, if anywhere.
+    pub cache: Option<PathBuf>,
+}
+
+/// A part of the report.
+#[derive(Clone, Copy)]
+pub struct Part {
+    /// Its name on the command line, in the page and on disk.
+    pub name: &'static str,
+    compute: fn(&Options, &dyn Progress) -> Result<Section, ReportError>,
+}
+
+/// All parts, in the order of the page. A new one is a row here.
+pub const PARTS: &[Part] = &[
+    Part {
+        name: "fig2",
+        compute: fig2::section,
+    },
+    Part {
+        name: "fig3",
+        compute: falls::fig3,
+    },
+    Part {
+        name: "fig4",
+        compute: falls::fig4,
+    },
+    Part {
+        name: "fig5",
+        compute: falls::fig5,
+    },
+    Part {
+        name: "table2",
+        compute: table2::section,
+    },
+    Part {
+        name: "departures",
+        compute: departures::section,
+    },
+    Part {
+        name: "regimes",
+        compute: regimes::section,
+    },
+    Part {
+        name: "coin",
+        compute: coin::section,
+    },
+    Part {
+        name: "showcase",
+        compute: showcase::section,
+    },
+];
+
+impl Part {
+    /// The part of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        PARTS.iter().find(|p| p.name == name).copied()
+    }
+}
+
+impl PartialEq for Part {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl std::fmt::Debug for Part {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Part").field(&self.name).finish()
+    }
+}
+
+/// Why there is no report, or only a part of it.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReportError {
+    /// A built-in scene is damaged.
+    #[error(transparent)]
+    Scene(#[from] FindError),
+    /// A scene could not be baked.
+    #[error(transparent)]
+    Bake(#[from] SceneBakeError),
+    /// A body could not be made ready to step.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The turbulence could not be computed.
+    #[error(transparent)]
+    Turbulence(#[from] TurbulenceError),
+    /// A picture could not be drawn.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// Numbers could not be written as JSON.
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+    /// A file could not be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// The caller's [`Progress`] asked to stop.
+    #[error("the report was cancelled")]
+    Cancelled,
+}
+
+/// A report on disk.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// The page.
+    pub page: PathBuf,
+    /// The parts that are finished, in order.
+    pub sections: Vec<Section>,
+    /// Whether all parts that were asked for are.
+    pub complete: bool,
+}
+
+/// Computes the parts and writes `report.html` and a folder of data for each part into `folder`.
+///
+/// When `progress` cancels, the parts finished before are kept and the report says that it is
+/// incomplete.
+///
+/// # Errors
+/// [`ReportError`]; the parts finished before are on disk.
+pub fn reproduce(
+    options: &Options,
+    folder: &Path,
+    progress: &dyn Progress,
+) -> Result<Report, ReportError> {
+    let mut report = Report {
+        page: folder.join("report.html"),
+        sections: Vec::new(),
+        complete: false,
+    };
+    for part in &options.parts {
+        progress.report(part.name, 0.0);
+        match (part.compute)(options, progress) {
+            Ok(_) if progress.cancelled() => return Ok(report),
+            Ok(section) => report.sections.push(section),
+            Err(_) if progress.cancelled() => return Ok(report),
+            Err(error) => return Err(error),
+        }
+        write(options, folder, &report)?;
+    }
+    report.complete = true;
+    Ok(report)
+}
+
+/// The newest section's data, and the page of all so far.
+fn write(options: &Options, folder: &Path, report: &Report) -> Result<(), ReportError> {
+    if let Some(section) = report.sections.last() {
+        let place = folder.join(section.id);
+        for (name, content) in &section.files {
+            files::write(&place.join(name), content)?;
+        }
+        let json = section.numbers.json()?;
+        files::write(&place.join("numbers.json"), json.as_bytes())?;
+    }
+    let done = report.sections.len();
+    let missing: Vec<&str> = options.parts[done..].iter().map(|p| p.name).collect();
+    let page = html::page(&report.sections, &intro(options), &missing);
+    files::write(&report.page, page.as_bytes())?;
+    Ok(())
+}
+
+fn intro(options: &Options) -> String {
+    let (first, last) = (
+        options.first_seed,
+        options
+            .first_seed
+            .saturating_add(u64::from(options.seeds) - 1),
+    );
+    format!(
+        "<p>The results of {}, computed by langevin-rigid {} with seeds {first} to {last}. Numbers \
+         are medians over the seeds with the 10th and 90th percentile in brackets, unless they say \
+         otherwise; the raw data are in a folder for each section beside this page.</p>\
+         <p>{}</p>",
+        paper::TITLE,
+        env!("CARGO_PKG_VERSION"),
+        falls::RULE,
+    )
+}
