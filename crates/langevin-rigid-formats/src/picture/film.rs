@@ -18,7 +18,8 @@ use super::{Picture, PictureError, PictureOptions, Pose, Subject, axes, legend};
 ///     triangles: &[[0, 2, 1]],
 /// };
 /// let pose = |time| Pose { time, position: [0.0, -time, 0.0], orientation: [0.0, 0.0, 0.0, 1.0] };
-/// let film = Film::new(&sheet, &[pose(0.0), pose(1.0)], &PictureOptions::default(), 25.0)?;
+/// let poses = [pose(0.0), pose(1.0)];
+/// let film = Film::new(&sheet, &poses, &PictureOptions::default(), 25.0)?;
 /// assert_eq!(film.frames(), 26);
 /// assert_eq!(film.frame(25)?.times(), [1.0]);
 /// # Ok::<(), langevin_rigid_formats::picture::PictureError>(())
