@@ -33,6 +33,7 @@ pub(crate) enum Command {
     Turbulence(Turbulence),
     Bake(Bake),
     Reproduce(Reproduce),
+    Bench(Bench),
     /// List the built-in scenes.
     Scenes,
 }
@@ -134,6 +135,17 @@ pub(crate) struct Ensemble {
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<Model>,
     /// Print the statistics as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Measure what a step and the precomputation cost on this machine.
+#[derive(Args)]
+#[command(after_help = "\
+Medians of repeated runs; with --json in nanoseconds, unless a name says otherwise. Quiet the machine
+first: other work shows.")]
+pub(crate) struct Bench {
+    /// Print the figures as JSON.
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -4,6 +4,7 @@ mod added_mass;
 mod arguments;
 mod bake;
 mod bars;
+mod bench;
 mod cache;
 mod ensemble;
 mod pictures;
@@ -34,6 +35,7 @@ fn main() -> ExitCode {
         Command::AddedMass(options) => added_mass::added_mass(options, &bars),
         Command::Turbulence(options) => turbulence::turbulence(options, &bars),
         Command::Bake(options) => bake::bake(options, &bars),
+        Command::Bench(options) => bench::bench(options, &bars),
         Command::Reproduce(options) => reproduce::reproduce(options, &bars),
         Command::Scenes => scenes::scenes(),
     };

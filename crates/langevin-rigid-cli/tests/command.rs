@@ -503,3 +503,22 @@ fn reproduce_writes_a_page_and_its_data() {
     assert_eq!(unknown.code, 2);
     assert!(unknown.err.contains("fig2, fig3, fig4"), "{}", unknown.err);
 }
+
+#[test]
+fn bench_prints_a_positive_figure_for_each_of_its_names() {
+    let outcome = Place::new().run(&["bench", "--json"]);
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    let figures: serde_json::Value = serde_json::from_str(&outcome.out).unwrap();
+    let positive = |value: &serde_json::Value| value.as_f64().unwrap() > 0.0;
+    for name in [
+        "step",
+        "step_separated",
+        "added_mass_1280_ms",
+        "added_mass_5120_ms",
+        "turbulence_cells_per_s",
+    ] {
+        assert!(positive(&figures[name]), "{name}");
+    }
+    let rows = figures["table2"].as_object().unwrap();
+    assert!(rows.len() == 6 && rows.values().all(positive));
+}

@@ -7,6 +7,7 @@ use langevin_rigid::{
     Bake, Body, Fluid, Settings, SetupError, Stepper, TurbulenceHistory, TurbulenceSource,
     falling_speed,
 };
+use langevin_rigid_bake::added_mass::Warning;
 use langevin_rigid_bake::body::{BodyBakeError, bake_body};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::ShapeError;
@@ -134,9 +135,12 @@ fn bake_mesh(
     } else {
         None
     };
+    // The small added mass along a thin sheet hardly matters to how it moves, whatever its accuracy.
+    let matters = |w: &&Warning| !matches!(w, Warning::ThinnerThanTriangles { .. });
     let mut warnings: Vec<String> = added_mass
         .warnings
         .iter()
+        .filter(matters)
         .map(ToString::to_string)
         .collect();
     if mesh.was_turned() {

@@ -1,0 +1,166 @@
+//! `langevin-rigid bench`
+
+use std::io::Write;
+use std::time::Instant;
+
+use anyhow::{Result, anyhow, bail};
+use langevin_rigid::turbulence::Turbulence;
+use langevin_rigid::{Integrator, Model, NoiseStream};
+use langevin_rigid_bake::added_mass;
+use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_bake::shapes::Shape;
+use langevin_rigid_bake::turbulence::{Boundary, MacGrid, TurbulentFlow};
+use langevin_rigid_formats::{advance::advance, baking, scene};
+use serde::Serialize;
+
+use crate::arguments::Bench;
+use crate::bars::Bars;
+use crate::cache;
+
+/// Times are medians over so many repetitions.
+const REPEATS: usize = 31;
+const FEW: usize = 5;
+/// Steps of one repetition.
+const STEPS: u32 = 2000;
+/// Cells of the timed turbulence grid along each axis.
+const CELLS: usize = 64;
+
+const TABLE_2: [&str; 6] = [
+    "table2-ellipsoid-320-1ms",
+    "table2-ellipsoid-320-5ms",
+    "table2-ellipsoid-320-10ms",
+    "table2-ellipsoid-1280-5ms",
+    "table2-paper-5ms",
+    "table2-airplane-5ms",
+];
+
+/// What is printed, medians; nanoseconds where a name does not say otherwise.
+#[derive(Debug, Serialize)]
+struct Report {
+    version: &'static str,
+    threads: usize,
+    /// One step of the 1:2:4 ellipsoid in water, model `consistent`, default integrator, with noise.
+    step: f64,
+    /// The same under `separated`.
+    step_separated: f64,
+    added_mass_1280_ms: f64,
+    added_mass_5120_ms: f64,
+    /// Whole steps of the flow solver on a grid of 64^3 cells.
+    turbulence_cells_per_s: f64,
+    /// One step of each row of the paper's Table 2, model `consistent`.
+    table2: std::collections::BTreeMap<&'static str, f64>,
+}
+
+pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
+    let body = TABLE_2[3];
+    let report = Report {
+        version: env!("CARGO_PKG_VERSION"),
+        threads: rayon::current_num_threads(),
+        step: step(body, Model::Consistent, bars)?,
+        step_separated: step(body, Model::Separated, bars)?,
+        table2: TABLE_2
+            .into_iter()
+            .map(|row| Ok((row, step(row, Model::Consistent, bars)?)))
+            .collect::<Result<_>>()?,
+        added_mass_1280_ms: added_mass_ms(1280, bars)?,
+        added_mass_5120_ms: added_mass_ms(5120, bars)?,
+        turbulence_cells_per_s: turbulence_cells_per_s(bars)?,
+    };
+    bars.clear();
+    let mut out = std::io::stdout().lock();
+    if options.json {
+        writeln!(out, "{}", serde_json::to_string_pretty(&report)?)?;
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "one step of one body: {:.0} ns (consistent), {:.0} ns (separated)",
+        report.step, report.step_separated
+    )?;
+    for (row, nanoseconds) in &report.table2 {
+        writeln!(out, "  {row}: {nanoseconds:.0} ns")?;
+    }
+    writeln!(
+        out,
+        "added mass, {} threads: {:.1} ms at 1280 triangles, {:.0} ms at 5120",
+        report.threads, report.added_mass_1280_ms, report.added_mass_5120_ms
+    )?;
+    writeln!(
+        out,
+        "turbulence, {CELLS}^3 cells: {:.1} million cell updates a second",
+        1e-6 * report.turbulence_cells_per_s
+    )?;
+    Ok(())
+}
+
+/// Nanoseconds a step of a built-in scene's body.
+fn step(name: &'static str, model: Model, bars: &Bars) -> Result<f64> {
+    let mut scene = scene::find(name)?;
+    scene.settings.model = model;
+    scene.settings.integrator = Integrator::default();
+    let baked = cache::bake(&scene, bars)?;
+    let stepper = baking::stepper(&scene, &baked.bake)?;
+    let seconds = median(REPEATS, name, bars, |repeat| {
+        let noise = NoiseStream {
+            seed: repeat as u64,
+            body: 0,
+        };
+        let mut state = scene.release;
+        for _ in 0..STEPS {
+            advance(&scene, &stepper, &mut state, &noise)?;
+        }
+        Ok(())
+    })?;
+    Ok(1e9 * seconds / f64::from(STEPS))
+}
+
+fn added_mass_ms(triangles: usize, bars: &Bars) -> Result<f64> {
+    let ellipsoid = Shape::Ellipsoid {
+        semi_axes: [0.01, 0.02, 0.04],
+    };
+    let mesh = ellipsoid.mesh(triangles)?;
+    let options = added_mass::Options::default();
+    let seconds = median(FEW, "added mass", bars, |_| {
+        added_mass::added_mass(&mesh, &options, &())?;
+        Ok(())
+    })?;
+    Ok(1e3 * seconds)
+}
+
+fn turbulence_cells_per_s(bars: &Bars) -> Result<f64> {
+    let sides = [Boundary::Walls, Boundary::Through, Boundary::Walls];
+    let size = 1.0 / CELLS as f64;
+    let mut grid = MacGrid::new([CELLS; 3], size, sides)?;
+    // A vortex in a stream: uniform flow would be too easy.
+    grid.set_velocity(|[x, y, _]| {
+        let turn = std::f64::consts::PI;
+        let (x, y) = (turn * x, turn * y);
+        [0.3 * x.sin() * y.cos(), 1.0 - 0.3 * x.cos() * y.sin(), 0.0]
+    });
+    let mut flow = TurbulentFlow::new(grid, Turbulence::at_birth(1.0, size))?;
+    let seconds = median(FEW, "turbulence", bars, |_| Ok(flow.step(size)?))?;
+    Ok((CELLS * CELLS * CELLS) as f64 / seconds)
+}
+
+/// Median seconds of `work`, after one untimed round.
+fn median(
+    repeats: usize,
+    stage: &str,
+    bars: &Bars,
+    mut work: impl FnMut(usize) -> Result<()>,
+) -> Result<f64> {
+    work(0)?;
+    let mut seconds = Vec::with_capacity(repeats);
+    for repeat in 0..repeats {
+        if bars.cancelled() {
+            bail!("interrupted");
+        }
+        let started = Instant::now();
+        work(repeat)?;
+        seconds.push(started.elapsed().as_secs_f64());
+        bars.report(stage, (repeat + 1) as f64 / repeats as f64);
+    }
+    seconds.sort_by(f64::total_cmp);
+    let middle = seconds.get(repeats / 2);
+    middle.copied().ok_or_else(|| anyhow!("nothing was timed"))
+}
