@@ -10,7 +10,7 @@
 //! with xi relative to the fluid. T^-1 A has six eigenvalues in [0, 1) and an eigenbasis V with
 //! V^T T V = 1; in q = V^-1 xi this is a linear Ornstein-Uhlenbeck process, solved exactly.
 
-use crate::linalg::{Mat6, Vec6, dot, eigen_generalized, mul, product, split, transpose};
+use crate::linalg::{Mat6, Vec6, dot, eigen_generalized, mul, norm, product, split, transpose};
 use crate::turbulence::{LangevinCoefficients, PreparedSource};
 
 /// The Langevin part of a body's equations of motion.
@@ -32,6 +32,10 @@ pub(crate) struct Langevin {
     /// lambda_i lambda_j C_ij, C = V^T T B B^T T V at beta = 1.
     covariance: Mat6,
 }
+
+/// Share of the speed that may relax, and angle (radians) that the body may turn by, in a step.
+const MOST_RELAXATION: f64 = 0.25;
+const MOST_TURN: f64 = 1.0;
 
 impl Langevin {
     /// `None` if the total tensor is not positive definite.
@@ -79,6 +83,18 @@ impl Langevin {
             modes[i] += decay[i] * modes[i] + beta * noise;
         }
         *xi = mul(&self.from_modes, &modes);
+    }
+
+    /// The step over which body-driven coefficients and the attitude stay about the same (s).
+    ///
+    /// Noise that grows faster than the speed feeds on itself where a frozen coefficient outlives it.
+    pub(crate) fn longest_step(&self, xi: &Vec6, time: f64) -> f64 {
+        if !self.source.follows_speed() {
+            return f64::INFINITY;
+        }
+        let (v, omega) = split(xi);
+        let relaxation = self.source.coefficients(v, time).alpha * self.eigenvalues[5];
+        (MOST_RELAXATION / relaxation).min(MOST_TURN / norm(omega))
     }
 
     /// alpha in the middle of a step, where the speed has dropped; beta at its start (Ito).

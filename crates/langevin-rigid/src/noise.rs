@@ -26,12 +26,17 @@ pub struct NoiseStream {
 impl NoiseStream {
     /// Independent standard normals of step number `step`.
     pub fn normals(&self, step: u64) -> [f64; NORMALS_PER_STEP] {
+        self.normals_of_part(step, 0)
+    }
+
+    /// Those of part `part` of a step that is taken in parts; part 0 has those of the step.
+    pub(crate) fn normals_of_part(&self, step: u64, part: u32) -> [f64; NORMALS_PER_STEP] {
         let key = halves(self.seed);
         let [low, high] = halves(step);
         let mut bits = [0u32; NORMALS_PER_STEP];
         for block in 0..3u32 {
             // The counter's third word separates bodies, its fourth the blocks of one step.
-            let words = philox4x32([low, high, self.body, block], key);
+            let words = philox4x32([low, high, self.body, 3 * part + block], key);
             bits[4 * block as usize..][..4].copy_from_slice(&words);
         }
         box_muller(&bits)

@@ -13,6 +13,9 @@ use crate::settings::{Integrator, Model, Settings};
 use crate::state::State;
 use crate::turbulence::{PreparedSource, TurbulenceHistory, TurbulenceSource, kolmogorov_c0};
 
+/// A step is taken in no more parts, as good as.
+const MOST_PARTS: f64 = 256.0;
+
 /// Speed (m/s) and spin (rad/s) beyond which a run has diverged: no light body in a fluid comes near.
 pub const SPEED_LIMIT: f64 = 1e6;
 
@@ -170,10 +173,7 @@ impl Stepper {
         match &self.scheme {
             Scheme::Strang(None) => self.kirchhoff.step(&mut motion, dt, unloaded),
             Scheme::Strang(Some(langevin)) => {
-                let (first, second) = halves(&noise.normals(state.step));
-                langevin.step(&mut motion.xi, state.time, 0.5 * dt, &first);
-                self.kirchhoff.step(&mut motion, dt, unloaded);
-                langevin.step(&mut motion.xi, state.time + 0.5 * dt, 0.5 * dt, &second);
+                self.strang_step(&mut motion, langevin, state, dt, noise);
             }
             Scheme::Separated(separated) => {
                 let (normals, _) = halves(&noise.normals(state.step));
@@ -233,6 +233,30 @@ impl Stepper {
     }
 
     /// The paper's scheme for Kirchhoff's and the Langevin part together.
+    /// In parts where the body moves so fast that the coefficients would not hold over the step.
+    fn strang_step(
+        &self,
+        motion: &mut Motion,
+        langevin: &Langevin,
+        state: &State,
+        dt: f64,
+        noise: &NoiseStream,
+    ) {
+        let (mut done, mut part) = (0.0, 0);
+        // Rounding leaves a remainder that is no part.
+        while done < dt * (1.0 - 1e-9) {
+            let (time, left) = (state.time + done, dt - done);
+            let wanted = langevin.longest_step(&motion.xi, time);
+            let h = wanted.max(dt / MOST_PARTS).min(left);
+            let (first, second) = halves(&noise.normals_of_part(state.step, part));
+            langevin.step(&mut motion.xi, time, 0.5 * h, &first);
+            self.kirchhoff.step(motion, h, unloaded);
+            langevin.step(&mut motion.xi, time + 0.5 * h, 0.5 * h, &second);
+            done += h;
+            part += 1;
+        }
+    }
+
     fn runge_kutta_step(
         &self,
         motion: &mut Motion,

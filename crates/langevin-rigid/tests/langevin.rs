@@ -277,3 +277,22 @@ fn kirchhoff_draws_no_noise() {
     };
     assert_eq!(end(1), end(2));
 }
+
+/// Fluctuations that grow faster than the speed must not feed on themselves over a long step: with
+/// coefficients frozen over 20 ms half of these bodies would be at 1e6 m/s before 20 s.
+#[test]
+fn a_body_in_its_own_turbulence_never_runs_away() {
+    let body = ellipsoid([0.01, 0.02, 0.04], 1200.0);
+    let settings = Settings {
+        model: Model::Consistent,
+        ..Settings::default()
+    };
+    let stepper = Stepper::new(&body, &Fluid::WATER, None, &settings).unwrap();
+    for seed in 0..60 {
+        let noise = NoiseStream { seed, body: 0 };
+        let mut state = State::default();
+        for _ in 0..1000 {
+            stepper.step(&mut state, 0.02, &noise).unwrap();
+        }
+    }
+}
