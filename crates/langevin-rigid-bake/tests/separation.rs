@@ -14,7 +14,7 @@ use langevin_rigid::Separation;
 use langevin_rigid_bake::TriMesh;
 use langevin_rigid_bake::added_mass::{Options, added_mass};
 use langevin_rigid_bake::separation::{
-    PressureDrag, pressure_drag, separation, stokes_rotation, stokes_translation,
+    PressureDrag, parts, pressure_drag, separation, stokes_rotation, stokes_translation,
 };
 use langevin_rigid_bake::shapes::Shape;
 
@@ -258,4 +258,45 @@ fn bodies_without_axes_have_isotropic_tensors() {
             1e-9,
         );
     }
+}
+
+/// Slices take shares of the integrals of the whole: they add up to it, first moments included, and
+/// those of a straight lath are alike but for its ends.
+#[test]
+fn the_slices_of_a_straight_body_add_up_to_it() {
+    let lath = Shape::Box {
+        size: [0.4, 0.004, 0.1],
+    }
+    .mesh(1600)
+    .unwrap();
+    let added = added_mass(&lath, &Options::default(), &()).unwrap();
+    let (whole, slices) = (separation(&lath, &added), parts(&lath, &added));
+    assert_eq!(slices.len(), 4);
+    let sum = |f: &dyn Fn(&langevin_rigid::Part) -> f64| slices.iter().map(f).sum::<f64>();
+    let broadside = sum(&|p| p.translation[1][1]);
+    assert!(
+        (broadside / added.tensor[1][1] - 1.0).abs() < 0.01,
+        "{broadside}"
+    );
+    let first = sum(&|p| p.translation[1][1] * p.centre[0]) / broadside;
+    assert!(first.abs() < 1e-4, "centre at {first} m");
+    let drag = sum(&|p| p.drag_area[1][1]);
+    assert!((drag / whole.drag_area[1][1] - 1.0).abs() < 0.02, "{drag}");
+    for (a, b) in slices.iter().zip(slices.iter().rev()) {
+        assert!((a.translation[1][1] / b.translation[1][1] - 1.0).abs() < 0.01);
+        assert!((a.centre[0] + b.centre[0]).abs() < 1e-3);
+        let half_chord = a.extents[2][2].sqrt();
+        assert!((half_chord / 0.05 - 1.0).abs() < 0.05, "{half_chord}");
+    }
+}
+
+#[test]
+fn a_body_as_wide_as_long_has_no_slices() {
+    let card = Shape::Box {
+        size: [0.085, 0.001, 0.055],
+    }
+    .mesh(600)
+    .unwrap();
+    let added = added_mass(&card, &Options::default(), &()).unwrap();
+    assert!(parts(&card, &added).is_empty());
 }
