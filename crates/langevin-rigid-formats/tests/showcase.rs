@@ -1,8 +1,7 @@
 //! The showcase scenes fall like the things they are named after.
 //!
-//! What is known of the things: a maple seed turns 10 to 30 times a second around the vertical, with
-//! the wing a little above level, and sinks at about 1 m/s (Norberg 1973, Azuma & Yasuda 1989); shed
-//! as it is it must do so from every seed of the noise. A leaf wanders and turns, a feather takes
+//! A maple seed turns some tens of times a second around the vertical, with the wing a little above
+//! level, and sinks at the order of 1 m/s; shed as it is it must do so from every seed of the noise. A leaf wanders and turns, a feather takes
 //! its time. If the seed dives, its slices do not see their own velocities.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
