@@ -13,8 +13,8 @@ use crate::settings::{Integrator, Model, Settings};
 use crate::state::State;
 use crate::turbulence::{PreparedSource, TurbulenceHistory, TurbulenceSource, kolmogorov_c0};
 
-/// A step is taken in no more parts, as good as.
-const MOST_PARTS: f64 = 256.0;
+/// A step is taken in no more parts.
+const MOST_PARTS: u32 = 256;
 
 /// Speed (m/s) and spin (rad/s) beyond which a run has diverged: no light body in a fluid comes near.
 pub const SPEED_LIMIT: f64 = 1e6;
@@ -242,18 +242,20 @@ impl Stepper {
         dt: f64,
         noise: &NoiseStream,
     ) {
-        let (mut done, mut part) = (0.0, 0);
-        // Rounding leaves a remainder that is no part.
-        while done < dt * (1.0 - 1e-9) {
+        let mut done = 0.0;
+        for part in 0..MOST_PARTS {
             let (time, left) = (state.time + done, dt - done);
             let wanted = langevin.longest_step(&motion.xi, time);
-            let h = wanted.max(dt / MOST_PARTS).min(left);
+            let h = wanted.max(dt / f64::from(MOST_PARTS)).min(left);
             let (first, second) = halves(&noise.normals_of_part(state.step, part));
             langevin.step(&mut motion.xi, time, 0.5 * h, &first);
             self.kirchhoff.step(motion, h, unloaded);
             langevin.step(&mut motion.xi, time + 0.5 * h, 0.5 * h, &second);
             done += h;
-            part += 1;
+            // What rounding leaves is no part.
+            if (dt - done).abs() <= 1e-9 * dt.abs() {
+                return;
+            }
         }
     }
 
