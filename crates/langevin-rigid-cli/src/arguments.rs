@@ -34,6 +34,7 @@ pub(crate) enum Command {
     Bake(Bake),
     Reproduce(Reproduce),
     Bench(Bench),
+    Crowd(Crowd),
     /// List the built-in scenes.
     Scenes,
 }
@@ -145,6 +146,33 @@ pub(crate) struct Ensemble {
 Medians of repeated runs; with --json in nanoseconds, unless a name says otherwise. Quiet the machine
 first: other work shows.")]
 pub(crate) struct Bench {
+    /// Print the figures as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Step many bodies of a scene in real time and count the frames that are missed.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid crowd
+  langevin-rigid crowd coin --bodies 20000 --seconds 5
+
+All bodies begin at the scene's release, each with noise of its own; walls, floors and other bodies do
+not act.")]
+pub(crate) struct Crowd {
+    /// A built-in scene (see `langevin-rigid scenes`) or a scene file.
+    #[arg(default_value = "paper-75")]
+    pub(crate) scene: String,
+    /// Number of bodies.
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) bodies: u32,
+    /// How long, at 60 frames a second.
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = positive)]
+    pub(crate) seconds: f64,
+    /// Equations of motion: consistent, separated, published, published-si or kirchhoff.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) model: Option<Model>,
     /// Print the figures as JSON.
     #[arg(long)]
     pub(crate) json: bool,

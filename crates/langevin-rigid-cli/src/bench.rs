@@ -5,12 +5,13 @@ use std::time::Instant;
 
 use anyhow::{Result, anyhow, bail};
 use langevin_rigid::turbulence::Turbulence;
-use langevin_rigid::{Integrator, Model, NoiseStream};
+use langevin_rigid::{Batch, Integrator, Model, NoiseStream, Precision};
 use langevin_rigid_bake::added_mass;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::{Boundary, MacGrid, TurbulentFlow};
 use langevin_rigid_formats::{advance::advance, baking, scene};
+use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::arguments::Bench;
@@ -22,6 +23,9 @@ const REPEATS: usize = 31;
 const FEW: usize = 5;
 /// Steps of one repetition.
 const STEPS: u32 = 2000;
+/// Bodies of a batch and its steps in one repetition.
+const BODIES: u32 = 4096;
+const BATCH_STEPS: u32 = 50;
 /// Cells of the timed turbulence grid along each axis.
 const CELLS: usize = 64;
 
@@ -36,8 +40,16 @@ struct Report {
     threads: usize,
     /// One step of the 1:2:4 ellipsoid in water, model `consistent`, default integrator, with noise.
     step: f64,
-    /// The same under `separated`.
+    /// The same for each of many bodies, on one core.
+    step_batch: f64,
+    /// One step of one body under `separated`, and for each of many.
     step_separated: f64,
+    step_separated_batch: f64,
+    /// `step_batch` and `step_separated_batch` in single precision.
+    step_batch_f32: f64,
+    step_separated_batch_f32: f64,
+    /// How many times faster all cores step a batch than one.
+    batch_scaling: f64,
     added_mass_1280_ms: f64,
     added_mass_5120_ms: f64,
     /// Whole steps of the flow solver on a grid of 64^3 cells.
@@ -47,11 +59,19 @@ struct Report {
 }
 
 pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
+    let threads = rayon::current_num_threads();
+    let on_all = step_batch::<f64>(Model::Consistent, threads, bars)?;
+    let on_one = step_batch::<f64>(Model::Consistent, 1, bars)?;
     let report = Report {
         version: env!("CARGO_PKG_VERSION"),
-        threads: rayon::current_num_threads(),
+        threads,
         step: step(BODY, Model::Consistent, bars)?,
+        step_batch: on_one,
         step_separated: step(BODY, Model::Separated, bars)?,
+        step_separated_batch: step_batch::<f64>(Model::Separated, 1, bars)?,
+        step_batch_f32: step_batch::<f32>(Model::Consistent, 1, bars)?,
+        step_separated_batch_f32: step_batch::<f32>(Model::Separated, 1, bars)?,
+        batch_scaling: on_one / on_all,
         table2: scene::BUILT_IN
             .iter()
             .filter(|row| row.name.starts_with(TABLE_2))
@@ -71,6 +91,19 @@ pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
         out,
         "one step of one body: {:.0} ns (consistent), {:.0} ns (separated)",
         report.step, report.step_separated
+    )?;
+    writeln!(
+        out,
+        "of many, a body on one core: {:.0} ns, {:.0} ns; in single precision {:.0} ns, {:.0} ns",
+        report.step_batch,
+        report.step_separated_batch,
+        report.step_batch_f32,
+        report.step_separated_batch_f32
+    )?;
+    writeln!(
+        out,
+        "  {} threads are {:.2} times faster than one",
+        report.threads, report.batch_scaling
     )?;
     for (row, nanoseconds) in &report.table2 {
         writeln!(out, "  {row}: {nanoseconds:.0} ns")?;
@@ -107,6 +140,34 @@ fn step(name: &'static str, model: Model, bars: &Bars) -> Result<f64> {
         Ok(())
     })?;
     Ok(1e9 * seconds / f64::from(STEPS))
+}
+
+/// Nanoseconds a step of each of [`BODIES`] bodies, shared among `threads`.
+fn step_batch<P: Precision>(model: Model, threads: usize, bars: &Bars) -> Result<f64> {
+    let mut scene = scene::find(BODY)?;
+    scene.settings.model = model;
+    scene.settings.integrator = Integrator::default();
+    let baked = cache::bake(&scene, bars)?;
+    let stepper = baking::stepper(&scene, &baked.bake)?;
+    let seconds = median(REPEATS, "batch", bars, |repeat| {
+        let mut batch = Batch::<P>::new(repeat as u64);
+        for _ in 0..BODIES {
+            batch.push(&scene.release);
+        }
+        let packs = batch.packs_mut();
+        let share = packs.len().div_ceil(threads);
+        for _ in 0..BATCH_STEPS {
+            if threads == 1 {
+                stepper.step_packs(packs, scene.time_step)?;
+            } else {
+                packs
+                    .par_chunks_mut(share)
+                    .try_for_each(|share| stepper.step_packs(share, scene.time_step))?;
+            }
+        }
+        Ok(())
+    })?;
+    Ok(1e9 * seconds / f64::from(BATCH_STEPS * BODIES))
 }
 
 fn added_mass_ms(triangles: usize, bars: &Bars) -> Result<f64> {

@@ -6,6 +6,7 @@ mod bake;
 mod bars;
 mod bench;
 mod cache;
+mod crowd;
 mod ensemble;
 mod pictures;
 mod regimes;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
         Command::Turbulence(options) => turbulence::turbulence(options, &bars),
         Command::Bake(options) => bake::bake(options, &bars),
         Command::Bench(options) => bench::bench(options, &bars),
+        Command::Crowd(options) => crowd::crowd(options, &bars),
         Command::Reproduce(options) => reproduce::reproduce(options, &bars),
         Command::Scenes => scenes::scenes(),
     };

@@ -157,7 +157,7 @@ fn golden_run() {
         let hash = csv.bytes().fold(0xCBF2_9CE4_8422_2325u64, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
         });
-        assert_eq!(hash, 1_950_999_610_513_104_548, "{threads} threads");
+        assert_eq!(hash, 17_848_633_060_189_663_007, "{threads} threads");
     }
 }
 
@@ -512,7 +512,12 @@ fn bench_prints_a_positive_figure_for_each_of_its_names() {
     let positive = |value: &serde_json::Value| value.as_f64().unwrap() > 0.0;
     for name in [
         "step",
+        "step_batch",
+        "step_batch_f32",
         "step_separated",
+        "step_separated_batch",
+        "step_separated_batch_f32",
+        "batch_scaling",
         "added_mass_1280_ms",
         "added_mass_5120_ms",
         "turbulence_cells_per_s",
@@ -521,4 +526,17 @@ fn bench_prints_a_positive_figure_for_each_of_its_names() {
     }
     let rows = figures["table2"].as_object().unwrap();
     assert!(rows.len() == 6 && rows.values().all(positive));
+}
+
+#[test]
+fn a_crowd_counts_its_frames() {
+    let place = Place::new();
+    let file = place.write("ball.toml", &scene(BALL, "duration = 0.3"));
+    let few = ["--bodies", "50", "--seconds", "0.05", "--json"];
+    let report = place.run(&[&["crowd", &file], &few[..]].concat()).json();
+    assert_eq!(report["bodies"], 50);
+    assert_eq!(report["frames"], 3);
+    assert!(report["missed_frames"].as_u64().unwrap() <= 3);
+    assert!(report["median_frame_ms"].as_f64().unwrap() > 0.0);
+    assert_eq!(place.run(&["crowd", &file, "--bodies", "0"]).code, 2);
 }

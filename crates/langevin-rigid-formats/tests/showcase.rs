@@ -75,14 +75,15 @@ fn without_its_slices_the_seed_turns_but_now_and_then() {
 
 #[test]
 fn leaves_and_feathers_wander_and_turn_on_their_way() {
-    for (name, slow, fast) in [("leaf", 0.6, 1.4), ("feather", 0.35, 1.3)] {
+    // One fall among ten may be fast or slow by half: the middle one is the measure.
+    for (name, slow, fast) in [("leaf", 0.85, 1.3), ("feather", 0.4, 0.75)] {
         let (scene, bake) = baked(name);
+        let mut speeds = Vec::new();
         let mut apart = 0.0f64;
         let mut first: Option<State> = None;
         for seed in 0..10 {
             let states = fall(&scene, &bake, seed, 2.0);
-            let speed = sinking(&states);
-            assert!((slow..fast).contains(&speed), "{name} {seed}: {speed} m/s");
+            speeds.push(sinking(&states));
             let up = |s: &State| rotate(s.orientation, [0.0, 1.0, 0.0])[1];
             let least = states.iter().map(up).fold(1.0, f64::min);
             assert!(least < 0.7, "{name} {seed} stays level: {least}");
@@ -90,6 +91,11 @@ fn leaves_and_feathers_wander_and_turn_on_their_way() {
             let other = first.get_or_insert(end);
             apart = apart.max((end.position[0] - other.position[0]).abs());
         }
+        speeds.sort_by(f64::total_cmp);
+        let middle = speeds[5];
+        assert!((slow..fast).contains(&middle), "{name}: {middle} m/s");
+        let (least, most) = (speeds[0] / middle, speeds[9] / middle);
+        assert!(least > 0.3 && most < 3.0, "{name}: {speeds:?} m/s");
         assert!(apart > 0.1, "{name}: all seeds within {apart} m");
     }
 }

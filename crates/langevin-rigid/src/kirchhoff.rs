@@ -14,44 +14,60 @@
 use crate::body::Body;
 use crate::fluid::Fluid;
 use crate::linalg::{
-    Mat6, Quat, Vec3, Vec6, add, add_scaled, cross, dot, dot6, invert_spd, join, mul,
-    quat_from_rotation_vector, quat_mul, quat_normalize, rotate, rotate_back, scale, split, sub,
+    Quat, Vec3, Vec6, add, add_scaled, cross, dot, dot6, each, invert_spd, join, lift, mat_vec,
+    matrix_of, mul, quat_mul, quat_normalize, rotate_back, scale, split, sub, transposed_mat_vec,
+    turn,
 };
+use crate::real::Real;
+use crate::shape::{General, Shape, Tensor};
 
 /// Pose, and velocity relative to the fluid in the body frame.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Motion {
-    pub(crate) position: Vec3,
-    pub(crate) orientation: Quat,
+pub(crate) struct Motion<R = f64> {
+    pub(crate) position: Vec3<R>,
+    pub(crate) orientation: Quat<R>,
     /// (v - R^T u, omega), body frame.
-    pub(crate) xi: Vec6,
+    pub(crate) xi: Vec6<R>,
 }
 
 /// The total tensor and the static loads of a body in a fluid.
 #[derive(Debug, Clone)]
-pub(crate) struct Kirchhoff {
+pub(crate) struct Kirchhoff<F: Shape = General, R: Real = f64> {
     /// T = diag(m, J0) + A.
-    pub(crate) total: Mat6,
-    pub(crate) inverse: Mat6,
+    pub(crate) total: F::Tensor<R>,
+    pub(crate) inverse: F::Tensor<R>,
     /// Gravity less buoyancy, world frame (N), Eq. (5).
-    weight: Vec3,
+    weight: Vec3<R>,
     /// Buoyancy, world frame (N), acting at `centre_of_buoyancy`.
-    buoyancy: Vec3,
-    centre_of_buoyancy: Vec3,
+    buoyancy: Vec3<R>,
+    centre_of_buoyancy: Vec3<R>,
 }
 
-/// What changes over one step, world frame: rotation vector and displacement since its start, the
-/// linear impulse, and the angular impulse about the place where the centre of mass was then.
+/// What changes over one step, in the body frame of its start: rotation vector and displacement since
+/// then, the linear impulse, and the angular impulse about the place where the centre of mass was.
 #[derive(Clone, Copy)]
-struct Increment {
-    theta: Vec3,
-    displacement: Vec3,
-    linear: Vec3,
-    angular: Vec3,
+struct Increment<R> {
+    theta: Vec3<R>,
+    displacement: Vec3<R>,
+    linear: Vec3<R>,
+    angular: Vec3<R>,
 }
 
-impl Increment {
-    fn plus(self, h: f64, rate: &Self) -> Self {
+impl<R: Real> Increment<R> {
+    /// From the momenta at the start, after `h` at `rate`.
+    #[inline(always)]
+    fn new(momentum: &Vec6<R>, h: R, rate: &Self) -> Self {
+        let (linear, angular) = split(momentum);
+        Self {
+            theta: scale(h, rate.theta),
+            displacement: scale(h, rate.displacement),
+            linear: add_scaled(linear, h, rate.linear),
+            angular: add_scaled(angular, h, rate.angular),
+        }
+    }
+
+    #[inline(always)]
+    fn plus(self, h: R, rate: &Self) -> Self {
         Self {
             theta: add_scaled(self.theta, h, rate.theta),
             displacement: add_scaled(self.displacement, h, rate.displacement),
@@ -59,6 +75,12 @@ impl Increment {
             angular: add_scaled(self.angular, h, rate.angular),
         }
     }
+}
+
+/// The static loads in the body frame of a step's start.
+struct StaticLoads<R> {
+    weight: Vec3<R>,
+    buoyancy: Vec3<R>,
 }
 
 impl Kirchhoff {
@@ -73,6 +95,17 @@ impl Kirchhoff {
             buoyancy: scale(-displaced, gravity),
             centre_of_buoyancy: body.centre_of_buoyancy,
         })
+    }
+
+    /// The same for a body of shape `G` in the lanes of `like`.
+    pub(crate) fn lift<G: Shape, R: Real>(&self, like: R) -> Kirchhoff<G, R> {
+        Kirchhoff {
+            total: G::tensor(like, &self.total),
+            inverse: G::tensor(like, &self.inverse),
+            weight: lift(like, &self.weight),
+            buoyancy: lift(like, &self.buoyancy),
+            centre_of_buoyancy: lift(like, &self.centre_of_buoyancy),
+        }
     }
 
     /// Kinetic energy of body and fluid, 1/2 xi . T xi (J), in the frame of the undisturbed fluid.
@@ -98,67 +131,153 @@ impl Kirchhoff {
         let (p, l) = split(&mul(&self.total, xi));
         join(cross(p, omega), add(cross(l, omega), cross(p, v)))
     }
+}
 
+impl<F: Shape, R: Real> Kirchhoff<F, R> {
     /// One step by the fourth-order Runge-Kutta-Munthe-Kaas scheme on the rotation group.
     ///
     /// `load` is a further generalized force about the centre of mass, body frame, from the velocity
-    /// relative to the fluid.
-    pub(crate) fn step(&self, motion: &mut Motion, h: f64, load: impl Fn(&Vec6) -> Vec6) {
-        let start = motion.orientation;
-        let (p, l) = split(&mul(&self.total, &motion.xi));
-        let at_start = Increment {
-            theta: [0.0; 3],
-            displacement: [0.0; 3],
-            linear: rotate(start, p),
-            angular: rotate(start, l),
-        };
-        let rate = |y: &Increment| self.rate(start, y, &load);
-
-        let k1 = rate(&at_start);
-        let k2 = rate(&at_start.plus(0.5 * h, &k1));
-        let k3 = rate(&at_start.plus(0.5 * h, &k2));
-        let k4 = rate(&at_start.plus(h, &k3));
-        let end = at_start
-            .plus(h / 6.0, &k1)
-            .plus(h / 3.0, &k2)
-            .plus(h / 3.0, &k3)
-            .plus(h / 6.0, &k4);
-
-        let (orientation, xi) = self.motion_of(start, &end);
-        motion.orientation = quat_normalize(orientation);
-        motion.position = add(motion.position, end.displacement);
-        motion.xi = xi;
+    /// relative to the fluid, if there is one.
+    #[inline(always)]
+    pub(crate) fn step(
+        &self,
+        motion: &mut Motion<R>,
+        h: R,
+        load: impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
+    ) {
+        let momentum = self.total.times(&motion.xi);
+        let momentum = self.step_momentum(motion, &momentum, h, load);
+        motion.xi = self.velocity(&momentum);
     }
 
-    /// Orientation and velocity after the increment.
-    fn motion_of(&self, start: Quat, y: &Increment) -> (Quat, Vec6) {
-        let orientation = quat_mul(start, quat_from_rotation_vector(y.theta));
-        let p = rotate_back(orientation, y.linear);
-        let l = rotate_back(orientation, sub(y.angular, cross(y.displacement, y.linear)));
-        (orientation, mul(&self.inverse, &join(p, l)))
-    }
-
-    fn rate(&self, start: Quat, y: &Increment, load: &impl Fn(&Vec6) -> Vec6) -> Increment {
-        let (orientation, xi) = self.motion_of(start, y);
-        let (v, omega) = split(&xi);
-        let (force, torque) = split(&load(&xi));
-        let force = add(self.weight, rotate(orientation, force));
-        let torque = add(
-            rotate(orientation, torque),
-            cross(rotate(orientation, self.centre_of_buoyancy), self.buoyancy),
+    /// T^-1 of the momenta, corrected once: the rounding of the inverse is the same in every step, so
+    /// that its errors would add up.
+    #[inline(always)]
+    fn velocity(&self, momentum: &Vec6<R>) -> Vec6<R> {
+        let xi = self.inverse.times(momentum);
+        let carried = self.total.times(&xi);
+        let rest = each(
+            xi[0],
+            #[inline(always)]
+            |i| momentum[i] - carried[i],
         );
+        let correction = self.inverse.times(&rest);
+        each(
+            xi[0],
+            #[inline(always)]
+            |i| xi[i] + correction[i],
+        )
+    }
+
+    /// The same from the momenta (p, l) at the start to those at the end, which it returns; of the
+    /// motion only the pose is moved.
+    #[inline(always)]
+    pub(crate) fn step_momentum(
+        &self,
+        motion: &mut Motion<R>,
+        momentum: &Vec6<R>,
+        h: R,
+        load: impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
+    ) -> Vec6<R> {
+        let start = matrix_of(motion.orientation);
+        let loads = StaticLoads {
+            weight: transposed_mat_vec(&start, self.weight),
+            buoyancy: transposed_mat_vec(&start, self.buoyancy),
+        };
+        let (half, third, sixth) = (h * h.of(0.5), h * h.of(1.0 / 3.0), h * h.of(1.0 / 6.0));
+        let k1 = self.first_rate(&motion.xi, &loads, &load);
+        let k2 = self.rate(&Increment::new(momentum, half, &k1), &loads, &load);
+        let k3 = self.rate(&Increment::new(momentum, half, &k2), &loads, &load);
+        let k4 = self.rate(&Increment::new(momentum, h, &k3), &loads, &load);
+        let end = Increment::new(momentum, sixth, &k1)
+            .plus(third, &k2)
+            .plus(third, &k3)
+            .plus(sixth, &k4);
+
+        let turned = turn(end.theta);
+        motion.orientation = quat_normalize(quat_mul(motion.orientation, turned));
+        motion.position = add(motion.position, mat_vec(&start, end.displacement));
+        momentum_after(&matrix_of(turned), &end)
+    }
+
+    /// The rate at the start of a step, where nothing has turned yet.
+    #[inline(always)]
+    fn first_rate(
+        &self,
+        xi: &Vec6<R>,
+        loads: &StaticLoads<R>,
+        load: &impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
+    ) -> Increment<R> {
+        let (v, omega) = split(xi);
+        let mut linear = loads.weight;
+        let mut angular = [omega[0].of(0.0); 3];
+        if !F::CENTRED {
+            angular = cross(self.centre_of_buoyancy, loads.buoyancy);
+        }
+        if let Some(load) = load(xi) {
+            let (force, couple) = split(&load);
+            linear = add(linear, force);
+            angular = add(angular, couple);
+        }
+        Increment {
+            theta: omega,
+            displacement: v,
+            linear,
+            angular,
+        }
+    }
+
+    #[inline(always)]
+    fn rate(
+        &self,
+        y: &Increment<R>,
+        loads: &StaticLoads<R>,
+        load: &impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
+    ) -> Increment<R> {
+        let turned = matrix_of(turn(y.theta));
+        let xi = self.inverse.times(&momentum_after(&turned, y));
+        let (v, omega) = split(&xi);
+        let mut linear = loads.weight;
+        let mut angular = cross(y.displacement, linear);
+        if !F::CENTRED {
+            let arm = mat_vec(&turned, self.centre_of_buoyancy);
+            angular = add(angular, cross(arm, loads.buoyancy));
+        }
+        if let Some(load) = load(&xi) {
+            let (force, couple) = split(&load);
+            let force = mat_vec(&turned, force);
+            linear = add(linear, force);
+            let couple = add(mat_vec(&turned, couple), cross(y.displacement, force));
+            angular = add(angular, couple);
+        }
         Increment {
             theta: rotation_vector_rate(y.theta, omega),
-            displacement: rotate(orientation, v),
-            linear: force,
-            angular: add(cross(y.displacement, force), torque),
+            displacement: mat_vec(&turned, v),
+            linear,
+            angular,
         }
     }
 }
 
+/// The momenta (p, l) in the frame that the body has turned to.
+#[inline(always)]
+fn momentum_after<R: Real>(turned: &[Vec3<R>; 3], y: &Increment<R>) -> Vec6<R> {
+    let about_body = sub(y.angular, cross(y.displacement, y.linear));
+    join(
+        transposed_mat_vec(turned, y.linear),
+        transposed_mat_vec(turned, about_body),
+    )
+}
+
 /// theta' for R = R0 exp(theta) and R' = R omega: the inverse of the exponential's differential.
-fn rotation_vector_rate(theta: Vec3, omega: Vec3) -> Vec3 {
+#[inline(always)]
+fn rotation_vector_rate<R: Real>(theta: Vec3<R>, omega: Vec3<R>) -> Vec3<R> {
     let twist = cross(theta, omega);
-    let c = 1.0 / 12.0 + dot(theta, theta) / 720.0;
-    add_scaled(add_scaled(omega, 0.5, twist), c, cross(theta, twist))
+    let two = dot(theta, theta);
+    let c = two.of(1.0 / 12.0) + two * two.of(1.0 / 720.0);
+    add_scaled(
+        add_scaled(omega, two.of(0.5), twist),
+        c,
+        cross(theta, twist),
+    )
 }

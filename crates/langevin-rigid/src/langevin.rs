@@ -10,27 +10,22 @@
 //! with xi relative to the fluid. T^-1 A has six eigenvalues in [0, 1) and an eigenbasis V with
 //! V^T T V = 1; in q = V^-1 xi this is a linear Ornstein-Uhlenbeck process, solved exactly.
 
-use crate::linalg::{Mat6, Vec6, dot, eigen_generalized, mul, norm, product, split, transpose};
-use crate::turbulence::{LangevinCoefficients, PreparedSource};
+use crate::elementary::{SMALL_EXPONENT, expm1, small_expm1};
+use crate::linalg::{Mat6, Vec6, dot, each, eigen_generalized, norm, product, split, transpose};
+use crate::modes::{Axes, Eigenmodes, Modes, mul_columns};
+use crate::real::Real;
+use crate::shape::{General, Shape, Tensor};
+use crate::turbulence::{Coefficients, PreparedSource};
 
 /// The Langevin part of a body's equations of motion.
 #[derive(Debug, Clone)]
-pub(crate) struct Langevin {
-    pub(crate) source: PreparedSource,
+pub(crate) struct Langevin<F: Shape = General, R: Real = f64> {
+    source: PreparedSource<R>,
     /// A (kg, kg m, kg m^2).
-    added: Mat6,
-    /// 1 / L^2 on the angular entries: B B^T at beta = 1.
-    diffusion: Vec6,
-    /// T^-1 A.
-    fraction: Mat6,
-    /// lambda, ascending, in [0, 1).
-    eigenvalues: Vec6,
-    /// V^-1 = V^T T.
-    to_modes: Mat6,
-    /// V.
-    from_modes: Mat6,
-    /// lambda_i lambda_j C_ij, C = V^T T B B^T T V at beta = 1.
-    covariance: Mat6,
+    added: F::Tensor<R>,
+    /// T^-1 A B at beta = 1.
+    kick: F::Tensor<R>,
+    pub(crate) modes: F::Modes<R>,
 }
 
 /// Share of the speed that may relax, and angle (radians) that the body may turn by, in a step.
@@ -45,117 +40,151 @@ impl Langevin {
         rotation_length: f64,
         source: PreparedSource,
     ) -> Option<Self> {
-        let angular = 1.0 / (rotation_length * rotation_length);
-        let diffusion = [1.0, 1.0, 1.0, angular, angular, angular];
+        let angular = 1.0 / rotation_length;
+        let noise = [1.0, 1.0, 1.0, angular, angular, angular];
         let (lambda, from_modes) = eigen_generalized(&added, total)?;
         // Rounding leaves the zero modes of a body of revolution at +-1e-17.
         let eigenvalues = lambda.map(|l| if l < 1e-14 { 0.0 } else { l });
         let to_modes = product(&transpose(&from_modes), total);
-        let covariance = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                let c: f64 = (0..6)
-                    .map(|k| to_modes[i][k] * diffusion[k] * to_modes[j][k])
-                    .sum();
-                eigenvalues[i] * eigenvalues[j] * c
-            })
-        });
-        let spread = mul_columns(&from_modes, &eigenvalues);
+        let fraction = product(&mul_columns(&from_modes, &eigenvalues), &to_modes);
         Some(Self {
             source,
             added,
-            diffusion,
-            fraction: product(&spread, &to_modes),
-            eigenvalues,
-            to_modes,
-            from_modes,
-            covariance,
+            kick: mul_columns(&fraction, &noise),
+            modes: Eigenmodes::new(eigenvalues, from_modes, to_modes, &noise),
         })
     }
 
-    /// Exact solution over `h` with the coefficients frozen, from six standard normals.
-    pub(crate) fn step(&self, xi: &mut Vec6, time: f64, h: f64, normals: &[f64; 6]) {
-        let LangevinCoefficients { alpha, beta } = self.midpoint_coefficients(xi, time, h);
-        let decay = self.eigenvalues.map(|l| libm::expm1(-alpha * l * h));
-        let factor = self.noise_factor(&decay, alpha, h);
-        let mut modes = mul(&self.to_modes, xi);
-        for i in 0..6 {
-            let noise: f64 = (0..=i).map(|j| factor[i][j] * normals[j]).sum();
-            modes[i] += decay[i] * modes[i] + beta * noise;
+    /// The same for a body of shape `G` in the lanes of `like`; `total` is the tensor T.
+    pub(crate) fn lift<G: Shape, R: Real>(&self, like: R, total: &Mat6) -> Langevin<G, R> {
+        Langevin {
+            source: self.source.lift(like),
+            added: G::tensor(like, &self.added),
+            kick: G::tensor(like, &self.kick),
+            modes: G::modes(like, self, total),
         }
-        *xi = mul(&self.from_modes, &modes);
     }
 
-    /// The step over which body-driven coefficients and the attitude stay about the same (s).
+    /// The modes of a body whose tensors are diagonal.
+    pub(crate) fn axes<R: Real>(&self, like: R, total: &Mat6) -> Axes<R> {
+        let diagonal = |m: &Mat6| -> Vec6 { std::array::from_fn(|i| m[i][i]) };
+        Axes::new(
+            like,
+            &diagonal(&self.added),
+            &diagonal(total),
+            &diagonal(&self.kick),
+        )
+    }
+}
+
+impl<F: Shape, R: Real> Langevin<F, R> {
+    /// Exact solution over `h` with the coefficients frozen, from six standard normals, in modes.
+    #[inline(always)]
+    pub(crate) fn step(&self, modes: &Vec6<R>, time: R, h: R, normals: &[R; 6]) -> Vec6<R> {
+        let Coefficients { alpha, diffusion } = self.midpoint_coefficients(modes, time, h);
+        let s = alpha * h;
+        let strength = (diffusion * h).sqrt();
+        let small = !s.of(SMALL_EXPONENT).less(s * self.modes.fastest());
+        let noise = self.modes.small_noise(s, normals);
+        let lambda = self.modes.eigenvalues();
+        let near = each(
+            s,
+            #[inline(always)]
+            |i| {
+                let decay = small_expm1(-(s * lambda[i]));
+                modes[i] + (decay * modes[i] + strength * noise[i])
+            },
+        );
+        if !R::any(!small) {
+            return near;
+        }
+        let far = self.long_step(modes, s, strength, normals);
+        each(
+            s,
+            #[inline(always)]
+            |i| R::choose(small, near[i], far[i]),
+        )
+    }
+
+    /// The same for any s = alpha h > 0, with the noise of strength beta sqrt(h).
+    #[inline(always)]
+    fn long_step(&self, modes: &Vec6<R>, s: R, strength: R, normals: &[R; 6]) -> Vec6<R> {
+        let lambda = self.modes.eigenvalues();
+        let decay = each(
+            s,
+            #[inline(always)]
+            |i| expm1(-(s * lambda[i])),
+        );
+        let noise = self.modes.noise(s, &decay, normals);
+        each(
+            s,
+            #[inline(always)]
+            |i| modes[i] + (decay[i] * modes[i] + strength * noise[i]),
+        )
+    }
+
+    /// The part of `left` over which body-driven coefficients and the attitude stay about the same
+    /// (s), but not under `least`.
     ///
     /// Noise that grows faster than the speed feeds on itself where a frozen coefficient outlives it.
-    pub(crate) fn longest_step(&self, xi: &Vec6, time: f64) -> f64 {
+    #[inline(always)]
+    pub(crate) fn part(&self, xi: &Vec6<R>, time: R, left: R, least: R) -> R {
         if !self.source.follows_speed() {
-            return f64::INFINITY;
+            return left;
         }
         let (v, omega) = split(xi);
-        let relaxation = self.source.coefficients(v, time).alpha * self.eigenvalues[5];
-        (MOST_RELAXATION / relaxation).min(MOST_TURN / norm(omega))
+        let alpha = self.source.coefficients(norm(v), time).alpha;
+        let relaxation = alpha * self.modes.fastest();
+        let spin2 = dot(omega, omega);
+        let (most, turn) = (left.of(MOST_RELAXATION), left.of(MOST_TURN));
+        let exceeds = most.less(relaxation * left) | (turn * turn).less(spin2 * (left * left));
+        if !R::any(exceeds) {
+            return left;
+        }
+        let wanted = (most / relaxation).min(turn / spin2.sqrt());
+        R::choose(exceeds, wanted.max(least).min(left), left)
     }
 
     /// alpha in the middle of a step, where the speed has dropped; beta at its start (Ito).
-    fn midpoint_coefficients(&self, xi: &Vec6, time: f64, h: f64) -> LangevinCoefficients {
-        let (v, _) = split(xi);
-        let mut c = self.source.coefficients(v, time);
-        if self.source.follows_speed() && c.alpha > 0.0 {
-            let (slowing, _) = split(&mul(&self.fraction, xi));
-            let rate = (c.alpha * dot(v, slowing) / dot(v, v)).max(0.0);
-            c.alpha /= 1.0 + 0.5 * h * rate;
+    #[inline(always)]
+    fn midpoint_coefficients(&self, modes: &Vec6<R>, time: R, h: R) -> Coefficients<R> {
+        let v = self.modes.linear(modes);
+        let v2 = dot(v, v);
+        let mut c = self.source.coefficients(v2.sqrt(), time);
+        if self.source.follows_speed() {
+            let lambda = self.modes.eigenvalues();
+            let relaxing = each(
+                h,
+                #[inline(always)]
+                |i| lambda[i] * modes[i],
+            );
+            let zero = h.of(0.0);
+            let lost = dot(v, self.modes.linear(&relaxing)).max(zero) * c.alpha * (h * h.of(0.5));
+            let moving = zero.less(v2);
+            c.alpha = R::choose(moving, c.alpha * v2 / (v2 + lost), zero);
         }
         c
     }
 
-    /// Cholesky factor of the noise covariance of the modes over `h` at beta = 1,
-    /// lambda_i lambda_j C_ij (1 - exp(-alpha (lambda_i + lambda_j) h)) / (alpha (lambda_i + lambda_j)).
-    ///
-    /// `decay` is exp(-alpha lambda h) - 1. Modes without added mass have no noise.
-    fn noise_factor(&self, decay: &Vec6, alpha: f64, h: f64) -> Mat6 {
-        let mut factor = [[0.0; 6]; 6];
-        for j in 0..6 {
-            for i in j..6 {
-                let rate = alpha * (self.eigenvalues[i] + self.eigenvalues[j]);
-                let lost = -(decay[i] + decay[j] + decay[i] * decay[j]);
-                let duration = if rate > 0.0 { lost / rate } else { h };
-                let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
-                factor[i][j] = self.covariance[i][j] * duration - known;
-            }
-            let pivot = factor[j][j];
-            // A zero mode, or what rounding leaves of a singular covariance.
-            let inverse = if pivot > 1e-14 * self.covariance[j][j] * h {
-                1.0 / pivot.sqrt()
-            } else {
-                0.0
-            };
-            for row in &mut factor[j..] {
-                row[j] *= inverse;
-            }
-        }
-        factor
-    }
-
     /// The generalized force of the relaxation, -alpha A xi.
-    pub(crate) fn relaxation(&self, xi: &Vec6, time: f64) -> Vec6 {
-        let (v, _) = split(xi);
-        let alpha = self.source.coefficients(v, time).alpha;
-        mul(&self.added, xi).map(|force| -alpha * force)
+    pub(crate) fn relaxation(&self, xi: &Vec6<R>, time: R) -> Vec6<R> {
+        let alpha = self.source.coefficients(norm(split(xi).0), time).alpha;
+        let momentum = self.added.times(xi);
+        each(time, |i| -(alpha * momentum[i]))
     }
 
-    /// The Euler-Maruyama impulse over `h`, A B dW.
-    pub(crate) fn kick(&self, xi: &Vec6, time: f64, h: f64, normals: &[f64; 6]) -> Vec6 {
-        let (v, _) = split(xi);
-        let beta = self.source.coefficients(v, time).beta;
-        let dw = std::array::from_fn(|i| beta * (self.diffusion[i] * h).sqrt() * normals[i]);
-        mul(&self.added, &dw)
+    /// The Euler-Maruyama change of the velocity over `h`, T^-1 A B dW.
+    #[inline(always)]
+    pub(crate) fn kick(&self, xi: &Vec6<R>, time: R, h: R, normals: &[R; 6]) -> Vec6<R> {
+        let diffusion = self.source.coefficients(norm(split(xi).0), time).diffusion;
+        let strength = (diffusion * h).sqrt();
+        let kick = self.kick.times(normals);
+        each(
+            h,
+            #[inline(always)]
+            |i| strength * kick[i],
+        )
     }
-}
-
-/// The columns of `m` times the entries of `s`.
-fn mul_columns(m: &Mat6, s: &Vec6) -> Mat6 {
-    std::array::from_fn(|i| std::array::from_fn(|j| m[i][j] * s[j]))
 }
 
 #[cfg(test)]
@@ -193,9 +222,8 @@ mod tests {
     fn propagate(langevin: &Langevin, covariance: &Mat6, time: f64, h: f64) -> Mat6 {
         let unit = |i: usize| -> Vec6 { std::array::from_fn(|j| f64::from(i == j)) };
         let column = |xi: Vec6, z: Vec6| {
-            let mut xi = xi;
-            langevin.step(&mut xi, time, h, &z);
-            xi
+            let modes = langevin.modes.of_velocity(&xi);
+            langevin.modes.velocity(&langevin.step(&modes, time, h, &z))
         };
         let decay = transpose(&std::array::from_fn(|i| column(unit(i), [0.0; 6])));
         let noise = transpose(&std::array::from_fn(|i| column([0.0; 6], unit(i))));
@@ -236,12 +264,9 @@ mod tests {
         let alpha = (0.5 + 0.75 * C0) * 15.0;
         let beta2 = C0 * 30.0;
         let in_modes: Mat6 = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                let rate = alpha * (langevin.eigenvalues[i] + langevin.eigenvalues[j]);
-                beta2 * langevin.covariance[i][j] / rate
-            })
+            std::array::from_fn(|j| beta2 * langevin.modes.stationary()[i][j] / alpha)
         });
-        let v = &langevin.from_modes;
+        let v = langevin.modes.basis();
         let stationary = product(&product(v, &in_modes), &transpose(v));
         for h in [1e-4, 5e-3, 1.0 / 60.0] {
             assert_close(
@@ -295,13 +320,17 @@ mod tests {
     fn speed_dependent_drag_is_of_second_order() {
         let source = TurbulenceSource::default();
         let source = PreparedSource::new(source, None, 0.1, kolmogorov_c0(1e4)).unwrap();
-        let alpha = source.coefficients([1.0, 0.0, 0.0], 0.0).alpha;
+        let alpha = source.coefficients(1.0, 0.0).alpha;
         let langevin = fluid_particle(source);
         // v' = -alpha v^2 gives v = v0 / (1 + alpha v0 t).
         let error = |steps: u32| {
             let mut xi = [2.0, 0.0, 0.0, 0.0, 0.0, 0.0];
             for _ in 0..steps {
-                langevin.step(&mut xi, 0.0, 0.05 / f64::from(steps), &[0.0; 6]);
+                let modes = langevin.modes.of_velocity(&xi);
+                let h = 0.05 / f64::from(steps);
+                xi = langevin
+                    .modes
+                    .velocity(&langevin.step(&modes, 0.0, h, &[0.0; 6]));
             }
             (xi[0] - 2.0 / (1.0 + 2.0 * alpha * 0.05)).abs()
         };
@@ -322,8 +351,9 @@ mod tests {
             added[i][i] = f64::from(i < 3);
         }
         let sphere = Langevin::new(added, &total, 1.0, frozen(1.0, 10.0)).unwrap();
-        let mut xi = [1.0, 0.0, 0.0, 0.3, -0.2, 0.1];
-        sphere.step(&mut xi, 0.0, 0.01, &[1.0, -1.0, 0.5, 2.0, 1.0, -3.0]);
+        let modes = sphere.modes.of_velocity(&[1.0, 0.0, 0.0, 0.3, -0.2, 0.1]);
+        let modes = sphere.step(&modes, 0.0, 0.01, &[1.0, -1.0, 0.5, 2.0, 1.0, -3.0]);
+        let xi = sphere.modes.velocity(&modes);
         for (spin, before) in xi[3..].iter().zip([0.3, -0.2, 0.1]) {
             assert!((spin - before).abs() < 1e-15);
         }

@@ -12,20 +12,28 @@
 //!
 //! What is where, in the order of a step's data flow: [`Body`] and [`Bake`] come in, [`Turbulence`]
 //! gives the Langevin coefficients, [`NoiseStream`] the normals, [`Stepper`] moves the [`State`],
-//! [`run`] repeats it to the ground.
+//! [`run`] repeats it to the ground; a [`Batch`] of bodies
+//! steps in SIMD lanes.
 
 mod bake;
+mod batch;
 mod body;
+mod elementary;
+mod equations;
 mod fluid;
 mod kirchhoff;
+mod lanes;
 mod langevin;
 pub mod linalg;
+mod modes;
 mod noise;
 mod published;
+mod real;
 mod run;
 mod runge_kutta;
 mod separated;
 mod settings;
+mod shape;
 mod state;
 mod stepper;
 #[cfg(test)]
@@ -33,7 +41,9 @@ mod thin_card;
 pub mod turbulence;
 
 pub use bake::{Bake, BakeError};
+pub use batch::{Batch, BatchError, Pack, Precision};
 pub use body::{Body, BodyError, Part, Separation, Surface, shift_added_mass};
+pub use equations::SPEED_LIMIT;
 pub use fluid::{Fluid, GRAVITY};
 pub use noise::{NORMALS_PER_STEP, NoiseStream};
 pub use published::UnitSystem;
@@ -41,7 +51,7 @@ pub use run::{Ending, Hull, StopAt, run};
 pub use separated::SeparatedFlow;
 pub use settings::{Integrator, Model, Settings, UnknownName};
 pub use state::State;
-pub use stepper::{SPEED_LIMIT, SetupError, StepError, Stepper, falling_reynolds, falling_speed};
+pub use stepper::{SetupError, StepError, Stepper, falling_reynolds, falling_speed};
 pub use turbulence::{
     LangevinCoefficients, Turbulence, TurbulenceHistory, TurbulenceSource, kolmogorov_c0,
 };

@@ -3,43 +3,53 @@
 //! Every function is straight-line arithmetic in a fixed order, so results have the same bits on
 //! every platform.
 
-/// A three-vector.
-pub type Vec3 = [f64; 3];
-/// A 3x3 matrix by rows.
-pub type Mat3 = [[f64; 3]; 3];
-/// A six-vector, linear part first.
-pub type Vec6 = [f64; 6];
-/// A 6x6 matrix by rows, linear part first.
-pub type Mat6 = [[f64; 6]; 6];
-/// A unit quaternion `[x, y, z, w]` that turns body vectors into world vectors.
-pub type Quat = [f64; 4];
+use crate::elementary::half_angle;
+use crate::real::Real;
 
-pub(crate) fn add(a: Vec3, b: Vec3) -> Vec3 {
+/// A three-vector.
+pub type Vec3<R = f64> = [R; 3];
+/// A 3x3 matrix by rows.
+pub type Mat3<R = f64> = [[R; 3]; 3];
+/// A six-vector, linear part first.
+pub type Vec6<R = f64> = [R; 6];
+/// A 6x6 matrix by rows, linear part first.
+pub type Mat6<R = f64> = [[R; 6]; 6];
+/// A unit quaternion `[x, y, z, w]` that turns body vectors into world vectors.
+pub type Quat<R = f64> = [R; 4];
+
+#[inline(always)]
+pub(crate) fn add<R: Real>(a: Vec3<R>, b: Vec3<R>) -> Vec3<R> {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-pub(crate) fn sub(a: Vec3, b: Vec3) -> Vec3 {
+#[inline(always)]
+pub(crate) fn sub<R: Real>(a: Vec3<R>, b: Vec3<R>) -> Vec3<R> {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-pub(crate) fn scale(s: f64, a: Vec3) -> Vec3 {
+#[inline(always)]
+pub(crate) fn scale<R: Real>(s: R, a: Vec3<R>) -> Vec3<R> {
     [s * a[0], s * a[1], s * a[2]]
 }
 
 /// `a + s b`.
-pub(crate) fn add_scaled(a: Vec3, s: f64, b: Vec3) -> Vec3 {
+#[inline(always)]
+pub(crate) fn add_scaled<R: Real>(a: Vec3<R>, s: R, b: Vec3<R>) -> Vec3<R> {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
 
-pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
+#[inline(always)]
+pub(crate) fn dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(crate) fn norm(a: Vec3) -> f64 {
+#[inline(always)]
+pub(crate) fn norm<R: Real>(a: Vec3<R>) -> R {
     dot(a, a).sqrt()
 }
 
-pub(crate) fn cross(a: Vec3, b: Vec3) -> Vec3 {
+#[inline(always)]
+pub(crate) fn cross<R: Real>(a: Vec3<R>, b: Vec3<R>) -> Vec3<R> {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -47,30 +57,40 @@ pub(crate) fn cross(a: Vec3, b: Vec3) -> Vec3 {
     ]
 }
 
-pub(crate) fn mat_vec(m: &Mat3, a: Vec3) -> Vec3 {
+#[inline(always)]
+pub(crate) fn mat_vec<R: Real>(m: &Mat3<R>, a: Vec3<R>) -> Vec3<R> {
     [dot(m[0], a), dot(m[1], a), dot(m[2], a)]
 }
 
+/// The transpose of `m` times `a`.
+#[inline(always)]
+pub(crate) fn transposed_mat_vec<R: Real>(m: &Mat3<R>, a: Vec3<R>) -> Vec3<R> {
+    let column = |j: usize| m[0][j] * a[0] + m[1][j] * a[1] + m[2][j] * a[2];
+    [column(0), column(1), column(2)]
+}
+
 /// The six-vector of a linear and an angular part.
-pub(crate) fn join(linear: Vec3, angular: Vec3) -> Vec6 {
+#[inline(always)]
+pub(crate) fn join<R: Real>(linear: Vec3<R>, angular: Vec3<R>) -> Vec6<R> {
     [
         linear[0], linear[1], linear[2], angular[0], angular[1], angular[2],
     ]
 }
 
 /// The linear and the angular part of a six-vector.
-pub(crate) fn split(a: &Vec6) -> (Vec3, Vec3) {
+#[inline(always)]
+pub(crate) fn split<R: Real>(a: &Vec6<R>) -> (Vec3<R>, Vec3<R>) {
     ([a[0], a[1], a[2]], [a[3], a[4], a[5]])
 }
 
-pub(crate) fn mul(m: &Mat6, a: &Vec6) -> Vec6 {
-    std::array::from_fn(|i| {
-        let r = &m[i];
-        (r[0] * a[0] + r[1] * a[1] + r[2] * a[2]) + (r[3] * a[3] + r[4] * a[4] + r[5] * a[5])
-    })
+#[inline(always)]
+pub(crate) fn mul<R: Real>(m: &Mat6<R>, a: &Vec6<R>) -> Vec6<R> {
+    let row = |i: usize| dot6(&m[i], a);
+    [row(0), row(1), row(2), row(3), row(4), row(5)]
 }
 
-pub(crate) fn dot6(a: &Vec6, b: &Vec6) -> f64 {
+#[inline(always)]
+pub(crate) fn dot6<R: Real>(a: &Vec6<R>, b: &Vec6<R>) -> R {
     (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
 }
 
@@ -83,7 +103,8 @@ pub(crate) fn product<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> [
 }
 
 /// The quaternion product `a b`: first the turn `b`, then `a`.
-pub(crate) fn quat_mul(a: Quat, b: Quat) -> Quat {
+#[inline(always)]
+pub(crate) fn quat_mul<R: Real>(a: Quat<R>, b: Quat<R>) -> Quat<R> {
     [
         a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
         a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
@@ -92,8 +113,10 @@ pub(crate) fn quat_mul(a: Quat, b: Quat) -> Quat {
     ]
 }
 
-pub(crate) fn quat_normalize(q: Quat) -> Quat {
-    let s = 1.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
+#[inline(always)]
+pub(crate) fn quat_normalize<R: Real>(q: Quat<R>) -> Quat<R> {
+    let size2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    let s = size2.of(1.0) / size2.sqrt();
     [q[0] * s, q[1] * s, q[2] * s, q[3] * s]
 }
 
@@ -110,55 +133,59 @@ pub fn rotate_back(q: Quat, a: Vec3) -> Vec3 {
 }
 
 /// The matrix of a unit quaternion: its columns are the body's axes in the world.
-pub fn rotation_matrix([x, y, z, w]: Quat) -> Mat3 {
+pub fn rotation_matrix(q: Quat) -> Mat3 {
+    matrix_of(q)
+}
+
+/// [`rotation_matrix`], in lanes.
+#[inline(always)]
+pub(crate) fn matrix_of<R: Real>([x, y, z, w]: Quat<R>) -> Mat3<R> {
+    let one = x.of(1.0);
+    let (x2, y2, z2) = (x + x, y + y, z + z);
+    let (xx, yy, zz) = (x * x2, y * y2, z * z2);
+    let (xy, xz, yz) = (x * y2, x * z2, y * z2);
+    let (wx, wy, wz) = (w * x2, w * y2, w * z2);
     [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-        ],
-        [
-            2.0 * (x * y + w * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - w * x),
-        ],
-        [
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
+        [one - (yy + zz), xy - wz, xz + wy],
+        [xy + wz, one - (xx + zz), yz - wx],
+        [xz - wy, yz + wx, one - (xx + yy)],
     ]
 }
 
 /// The quaternion of a rotation vector (axis times angle, rad).
 pub fn quat_from_rotation_vector(theta: Vec3) -> Quat {
-    let (s, c) = half_angle_sinc_cos(dot(theta, theta));
+    turn(theta)
+}
+
+/// [`quat_from_rotation_vector`], in lanes.
+#[inline(always)]
+pub(crate) fn turn<R: Real>(theta: Vec3<R>) -> Quat<R> {
+    let (s, c) = half_angle(dot(theta, theta));
     [s * theta[0], s * theta[1], s * theta[2], c]
 }
 
-/// `sin(a/2)/a` and `cos(a/2)` from `a^2`.
-fn half_angle_sinc_cos(a2: f64) -> (f64, f64) {
-    // With x = (a/2)^2 <= 1/4 the truncated series are exact to rounding.
-    let x = 0.25 * a2;
-    if x > 0.25 {
-        let half = x.sqrt();
-        return (0.5 * libm::sin(half) / half, libm::cos(half));
+/// `f` of each index. Unlike the library's it is always inlined, with `f`, into code for the
+/// processor at hand.
+#[inline(always)]
+pub(crate) fn each<R: Real, const N: usize>(like: R, f: impl Fn(usize) -> R) -> [R; N] {
+    let mut a = [like; N];
+    for i in 0..N {
+        a[i] = f(i);
     }
-    let s = 1.0
-        - x / 6.0
-            * (1.0
-                - x / 20.0
-                    * (1.0 - x / 42.0 * (1.0 - x / 72.0 * (1.0 - x / 110.0 * (1.0 - x / 156.0)))));
-    let c = 1.0
-        - x / 2.0
-            * (1.0
-                - x / 12.0
-                    * (1.0
-                        - x / 30.0
-                            * (1.0
-                                - x / 56.0
-                                    * (1.0 - x / 90.0 * (1.0 - x / 132.0 * (1.0 - x / 182.0))))));
-    (0.5 * s, c)
+    a
+}
+
+/// The numbers of a vector or matrix in the lanes of `like`.
+pub(crate) fn lift<R: Real, const N: usize>(like: R, a: &[f64; N]) -> [R; N] {
+    a.map(|x| like.of(x))
+}
+
+/// The same of a matrix.
+pub(crate) fn lift_matrix<R: Real, const N: usize, const M: usize>(
+    like: R,
+    m: &[[f64; N]; M],
+) -> [[R; N]; M] {
+    m.map(|row| lift(like, &row))
 }
 
 /// Lower Cholesky factor of a symmetric positive definite matrix; `None` if it is not.

@@ -4,6 +4,9 @@
 //! (section 4.1), turns those into normals. No state is carried from step to step, so a run can be
 //! resumed, reordered or split over threads without changing a bit.
 
+use crate::elementary::{ln, sin_cos_eighth};
+use crate::real::{Real, Words};
+
 /// Normals that one step consumes: six for each half of the Langevin splitting.
 pub const NORMALS_PER_STEP: usize = 12;
 
@@ -26,37 +29,94 @@ pub struct NoiseStream {
 impl NoiseStream {
     /// Independent standard normals of step number `step`.
     pub fn normals(&self, step: u64) -> [f64; NORMALS_PER_STEP] {
-        self.normals_of_part(step, 0)
-    }
-
-    /// Those of part `part` of a step that is taken in parts; part 0 has those of the step.
-    pub(crate) fn normals_of_part(&self, step: u64, part: u32) -> [f64; NORMALS_PER_STEP] {
-        let key = halves(self.seed);
-        let [low, high] = halves(step);
-        let mut bits = [0u32; NORMALS_PER_STEP];
-        for block in 0..3u32 {
-            // The counter's third word separates bodies, its fourth the blocks of one step.
-            let words = philox4x32([low, high, self.body, 3 * part + block], key);
-            bits[4 * block as usize..][..4].copy_from_slice(&words);
-        }
-        box_muller(&bits)
+        let counter = Counter::new(step, self.body);
+        let (first, second) = counter.normals_of_part(self.seed, 0);
+        std::array::from_fn(|i| if i < 6 { first[i] } else { second[i - 6] })
     }
 }
 
-fn halves(x: u64) -> [u32; 2] {
+/// Where a body is in its stream, or bodies in theirs.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Counter<W> {
+    /// Number of the step, low and high word.
+    pub(crate) step: [W; 2],
+    pub(crate) body: W,
+}
+
+impl Counter<u32> {
+    pub(crate) fn new(step: u64, body: u32) -> Self {
+        Self {
+            step: halves(step),
+            body,
+        }
+    }
+}
+
+impl<W: Words> Counter<W> {
+    /// Six standard normals: those of the first half of a step.
+    #[inline(always)]
+    pub(crate) fn normals<R: Real<Words = W>>(&self, seed: u64) -> [R; 6] {
+        let first = self.words(seed, 0);
+        let second = self.words(seed, 1);
+        in_pairs([
+            box_muller(first[0], first[1]),
+            box_muller(first[2], first[3]),
+            box_muller(second[0], second[1]),
+        ])
+    }
+
+    /// Two times six, for part `part` of a step that is taken in parts; part 0 begins like the step.
+    #[inline(always)]
+    pub(crate) fn normals_of_part<R: Real<Words = W>>(
+        &self,
+        seed: u64,
+        part: u32,
+    ) -> ([R; 6], [R; 6]) {
+        let first = self.words(seed, 3 * part);
+        let second = self.words(seed, 3 * part + 1);
+        let third = self.words(seed, 3 * part + 2);
+        (
+            in_pairs([
+                box_muller(first[0], first[1]),
+                box_muller(first[2], first[3]),
+                box_muller(second[0], second[1]),
+            ]),
+            in_pairs([
+                box_muller(second[2], second[3]),
+                box_muller(third[0], third[1]),
+                box_muller(third[2], third[3]),
+            ]),
+        )
+    }
+
+    /// The counter's third word separates bodies, its fourth the blocks of one step.
+    #[inline(always)]
+    fn words(&self, seed: u64, block: u32) -> [W; 4] {
+        let [low, high] = self.step;
+        philox4x32([low, high, self.body, low.of(block)], halves(seed))
+    }
+}
+
+#[inline(always)]
+fn in_pairs<R: Real>([a, b, c]: [(R, R); 3]) -> [R; 6] {
+    [a.0, a.1, b.0, b.1, c.0, c.1]
+}
+
+pub(crate) fn halves(x: u64) -> [u32; 2] {
     [x as u32, (x >> 32) as u32]
 }
 
 /// Philox4x32 with ten rounds.
-fn philox4x32(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
+#[inline(always)]
+fn philox4x32<W: Words>(mut counter: [W; 4], mut key: [u32; 2]) -> [W; 4] {
     for _ in 0..10 {
-        let a = u64::from(counter[0]) * 0xD251_1F53;
-        let b = u64::from(counter[2]) * 0xCD9E_8D57;
+        let (a_high, a_low) = counter[0].widening_mul(0xD251_1F53);
+        let (b_high, b_low) = counter[2].widening_mul(0xCD9E_8D57);
         counter = [
-            (b >> 32) as u32 ^ counter[1] ^ key[0],
-            b as u32,
-            (a >> 32) as u32 ^ counter[3] ^ key[1],
-            a as u32,
+            b_high ^ counter[1] ^ b_low.of(key[0]),
+            b_low,
+            a_high ^ counter[3] ^ a_low.of(key[1]),
+            a_low,
         ];
         key = [
             key[0].wrapping_add(0x9E37_79B9),
@@ -66,61 +126,17 @@ fn philox4x32(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     counter
 }
 
-/// Normals from uniform words: word `i` gives the radius and word `i + 6` the angle of one pair.
-fn box_muller(bits: &[u32; NORMALS_PER_STEP]) -> [f64; NORMALS_PER_STEP] {
-    const PAIRS: usize = NORMALS_PER_STEP / 2;
-    const UNIT: f64 = 1.0 / 4_294_967_296.0;
-    let mut normals = [0.0; NORMALS_PER_STEP];
-    for i in 0..PAIRS {
-        // (0, 1): never zero, so that the logarithm is finite.
-        let u = (f64::from(bits[i]) + 0.5) * UNIT;
-        let radius = (-2.0 * ln_unit(u)).sqrt();
-        let (sin, cos) = sin_cos_turns((f64::from(bits[PAIRS + i]) + 0.5) * UNIT);
-        normals[i] = radius * cos;
-        normals[PAIRS + i] = radius * sin;
-    }
-    normals
-}
-
-/// Natural logarithm on (0, 1), without branches so that a loop over it vectorizes.
-///
-/// ln m = 2 artanh((m-1)/(m+1)) with the mantissa m in [sqrt(1/2), sqrt(2)).
-fn ln_unit(u: f64) -> f64 {
-    const HALF_SQRT: u64 = 0x3FE6_A09E_667F_3BCD;
-    let bits = u.to_bits();
-    let exponent = (bits.wrapping_sub(HALF_SQRT) as i64) >> 52;
-    let mantissa = f64::from_bits(bits.wrapping_sub((exponent << 52) as u64));
-    let s = (mantissa - 1.0) / (mantissa + 1.0);
-    let z = s * s;
-    let mut p = 1.0 / 19.0;
-    for k in [17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0, 1.0] {
-        p = p * z + 1.0 / k;
-    }
-    2.0 * s * p + exponent as f64 * std::f64::consts::LN_2
-}
-
-/// Sine and cosine of `u` turns, `u` in [0, 1), without branches.
-fn sin_cos_turns(u: f64) -> (f64, f64) {
-    let quadrant = (4.0 * u + 0.5) as i64;
-    let x = (u - 0.25 * quadrant as f64) * std::f64::consts::TAU;
-    let z = x * x;
-    let mut sin = 1.0;
-    for k in [210.0, 156.0, 110.0, 72.0, 42.0, 20.0, 6.0] {
-        sin = 1.0 - z / k * sin;
-    }
-    sin *= x;
-    let mut cos = 1.0;
-    for k in [240.0, 182.0, 132.0, 90.0, 56.0, 30.0, 12.0, 2.0] {
-        cos = 1.0 - z / k * cos;
-    }
-    let (a, b) = if quadrant & 1 == 0 {
-        (sin, cos)
-    } else {
-        (cos, sin)
-    };
+/// Two normals from two uniform words, one for the radius and one for the angle.
+#[inline(always)]
+fn box_muller<R: Real>(radius: R::Words, angle: R::Words) -> (R, R) {
+    let u = R::uniform(radius);
+    let radius = (ln(u) * u.of(-2.0)).sqrt();
+    let (sin, cos) = sin_cos_eighth(R::eighth_turn(angle));
+    let cos = R::choose(R::is_set(angle, 31), -cos, cos);
+    let swapped = R::is_set(angle, 30);
     (
-        if quadrant & 2 == 0 { a } else { -a },
-        if (quadrant + 1) & 2 == 0 { b } else { -b },
+        radius * R::choose(swapped, sin, cos),
+        radius * R::choose(swapped, cos, sin),
     )
 }
 
@@ -132,25 +148,13 @@ mod tests {
     fn philox_meets_its_known_answers() {
         // Random123 known-answer vectors.
         assert_eq!(
-            philox4x32([0; 4], [0; 2]),
+            philox4x32([0u32; 4], [0; 2]),
             [0x6627_e8d5, 0xe169_c58d, 0xbc57_ac4c, 0x9b00_dbd8]
         );
         assert_eq!(
             philox4x32([u32::MAX; 4], [u32::MAX; 2]),
             [0x408f_276d, 0x41c8_3b0e, 0xa20b_c7c6, 0x6d54_51fd]
         );
-    }
-
-    #[test]
-    fn elementary_functions_meet_the_library() {
-        for i in 1..4000 {
-            let u = f64::from(i) / 4000.0;
-            assert!((ln_unit(u) - libm::log(u)).abs() < 4e-16 * (1.0 + libm::log(u).abs()));
-            let (s, c) = sin_cos_turns(u);
-            assert!((s - libm::sin(std::f64::consts::TAU * u)).abs() < 1e-15);
-            assert!((c - libm::cos(std::f64::consts::TAU * u)).abs() < 1e-15);
-        }
-        assert!((ln_unit(1e-10) - libm::log(1e-10)).abs() < 1e-14);
     }
 
     #[test]

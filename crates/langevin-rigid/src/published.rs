@@ -9,10 +9,10 @@ use crate::body::Body;
 use crate::fluid::Fluid;
 use crate::kirchhoff::Motion;
 use crate::linalg::{
-    Mat3, Vec3, Vec6, cross, invert_spd, join, mat_vec, rotate_back, scale, split, sub,
+    Mat3, Vec3, Vec6, cross, invert_spd, join, mat_vec, norm, rotate_back, scale, split, sub,
 };
 use crate::runge_kutta;
-use crate::turbulence::{LangevinCoefficients, PreparedSource};
+use crate::turbulence::{Coefficients, LangevinCoefficients, PreparedSource};
 
 /// The system of units in which the printed equations are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -103,10 +103,11 @@ impl Published {
 
     /// Coefficients in the printed units: alpha has the same number in all of them.
     fn coefficients(&self, xi: &Vec6, time: f64) -> LangevinCoefficients {
-        let LangevinCoefficients { alpha, beta } = self.source.coefficients(split(xi).0, time);
+        let speed = norm(split(xi).0);
+        let Coefficients { alpha, diffusion } = self.source.coefficients(speed, time);
         LangevinCoefficients {
             alpha,
-            beta: beta / self.length,
+            beta: diffusion.sqrt() / self.length,
         }
     }
 

@@ -1,23 +1,20 @@
 //! One body made ready to step: Algorithm 2.
 
+use crate::batch::{Batch, BatchError, Pack, Precision};
 use crate::body::{Body, BodyError};
+use crate::equations::{Equations, Loads, Noise, SPEED_LIMIT, Separated, possible};
 use crate::fluid::Fluid;
 use crate::kirchhoff::{Kirchhoff, Motion};
 use crate::langevin::Langevin;
-use crate::linalg::{Vec3, Vec6, add, add_scaled, join, mul, norm, rotate_back, split, sub};
-use crate::noise::NoiseStream;
+use crate::linalg::{Vec3, Vec6, add, cross, join, mul, norm, rotate, split};
+use crate::noise::{Counter, NoiseStream};
 use crate::published::Published;
 use crate::runge_kutta;
 use crate::separated::Closure;
 use crate::settings::{Integrator, Model, Settings};
+use crate::shape::Symmetric;
 use crate::state::State;
 use crate::turbulence::{PreparedSource, TurbulenceHistory, TurbulenceSource, kolmogorov_c0};
-
-/// A step is taken in no more parts.
-const MOST_PARTS: u32 = 256;
-
-/// Speed (m/s) and spin (rad/s) beyond which a run has diverged: no light body in a fluid comes near.
-pub const SPEED_LIMIT: f64 = 1e6;
 
 /// A body in a fluid under a model, made ready to step.
 ///
@@ -49,28 +46,19 @@ pub const SPEED_LIMIT: f64 = 1e6;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Stepper {
-    kirchhoff: Kirchhoff,
-    scheme: Scheme,
+    pub(crate) equations: Equations,
+    /// The same for a body that is symmetric, which takes its default steps.
+    pub(crate) symmetric: Option<Box<Equations<Symmetric>>>,
+    /// The paper's own integrator in place of the default one.
+    paper: Option<Paper>,
     model: Model,
-    /// Uniform velocity of the fluid, world frame.
-    current: Vec3,
 }
 
-/// The loads and how they are advanced.
+/// What the paper's integrator is given.
 #[derive(Debug, Clone)]
-enum Scheme {
-    Strang(Option<Box<Langevin>>),
+enum Paper {
     RungeKutta4(Option<Box<Langevin>>),
     Published(Box<Published>),
-    Separated(Box<Separated>),
-}
-
-/// Kirchhoff's equations with the closure for separated flow, and the turbulence that the body
-/// sheds as noise.
-#[derive(Debug, Clone)]
-struct Separated {
-    closure: Closure,
-    noise: Langevin,
 }
 
 /// Why a body cannot be made ready to step.
@@ -155,12 +143,20 @@ impl Stepper {
         check(fluid, settings)?;
         let kirchhoff =
             Kirchhoff::new(body, fluid, settings.gravity).ok_or(SetupError::TotalMass)?;
-        let scheme = Scheme::new(body, fluid, history, settings, &kirchhoff)?;
-        Ok(Self {
+        let (loads, paper) = loads(body, fluid, history, settings, &kirchhoff)?;
+        let moving = fluid.velocity.iter().any(|&u| u != 0.0);
+        let equations = Equations {
             kirchhoff,
-            scheme,
+            loads,
+            current: moving.then_some(fluid.velocity),
+        };
+        let symmetric =
+            Symmetric::includes(body, fluid.density).then(|| Box::new(equations.lift(1.0)));
+        Ok(Self {
+            equations,
+            symmetric,
+            paper,
             model: settings.model,
-            current: fluid.velocity,
         })
     }
 
@@ -169,30 +165,22 @@ impl Stepper {
     /// # Errors
     /// [`StepError::Diverged`], with `state` left as it was before the step.
     pub fn step(&self, state: &mut State, dt: f64, noise: &NoiseStream) -> Result<(), StepError> {
-        let mut motion = self.relative_to_fluid(state);
-        match &self.scheme {
-            Scheme::Strang(None) => self.kirchhoff.step(&mut motion, dt, unloaded),
-            Scheme::Strang(Some(langevin)) => {
-                self.strang_step(&mut motion, langevin, state, dt, noise);
+        let before = state.motion();
+        let (motion, sound) = match &self.paper {
+            None => {
+                let noise = Noise {
+                    seed: noise.seed,
+                    counter: Counter::new(state.step, noise.body),
+                };
+                match &self.symmetric {
+                    Some(equations) => equations.step(&before, state.time, dt, &noise),
+                    None => self.equations.step(&before, state.time, dt, &noise),
+                }
             }
-            Scheme::Separated(separated) => {
-                let (normals, _) = halves(&noise.normals(state.step));
-                let kick = separated.noise.kick(&motion.xi, state.time, dt, &normals);
-                self.kirchhoff
-                    .step(&mut motion, dt, |xi| separated.closure.load(xi));
-                accumulate(&mut motion.xi, &mul(&self.kirchhoff.inverse, &kick));
-            }
-            Scheme::RungeKutta4(langevin) => {
-                let (normals, _) = halves(&noise.normals(state.step));
-                self.runge_kutta_step(&mut motion, langevin.as_deref(), state.time, dt, &normals);
-            }
-            Scheme::Published(published) => {
-                let (normals, _) = halves(&noise.normals(state.step));
-                published.step(&mut motion, state.time, dt, &normals);
-            }
-        }
-        let next = self.in_the_world(&motion, state, dt);
-        if !next.is_finite() || fastest(&next) > SPEED_LIMIT {
+            Some(paper) => self.paper_step(paper, &before, state, dt, noise),
+        };
+        let next = State::of(&motion, state.time + dt, state.step + 1);
+        if !(sound && next.time.is_finite()) {
             return Err(StepError::Diverged {
                 time: state.time,
                 step: state.step,
@@ -204,9 +192,53 @@ impl Stepper {
         Ok(())
     }
 
+    /// Advances every body of `batch` by `dt` (s), each with the noise of its own step number.
+    ///
+    /// In double precision a body has the same bits as by [`Stepper::step`].
+    ///
+    /// # Errors
+    /// [`BatchError`], which names the bodies that diverged; they are left as they were, the others
+    /// have moved on.
+    pub fn step_batch<P: Precision>(
+        &self,
+        batch: &mut Batch<P>,
+        dt: f64,
+    ) -> Result<(), BatchError> {
+        self.step_packs(batch.packs_mut(), dt)
+    }
+
+    /// The same for some packs of a batch, so that a host can share them among its own threads.
+    ///
+    /// # Errors
+    /// As [`Stepper::step_batch`].
+    pub fn step_packs<P: Precision>(
+        &self,
+        packs: &mut [Pack<P>],
+        dt: f64,
+    ) -> Result<(), BatchError> {
+        let mut diverged = Vec::new();
+        match self.paper {
+            None => P::step(self, packs, dt, &mut diverged),
+            Some(_) => {
+                for pack in packs {
+                    pack.step_each(&mut diverged, |state, noise| self.step(state, dt, noise));
+                }
+            }
+        }
+        if diverged.is_empty() {
+            return Ok(());
+        }
+        Err(BatchError {
+            bodies: diverged,
+            time_step: dt,
+            model: self.model,
+        })
+    }
+
     /// Kinetic energy of the body and the fluid it moves, relative to the undisturbed fluid (J).
     pub fn kinetic_energy(&self, state: &State) -> f64 {
-        self.kirchhoff.energy(&self.relative_to_fluid(state).xi)
+        let motion = self.equations.relative_to_fluid(&state.motion());
+        self.equations.kirchhoff.energy(&motion.xi)
     }
 
     /// Linear impulse of body and fluid in the world frame (kg m/s), R p, relative to the undisturbed
@@ -222,41 +254,32 @@ impl Stepper {
     }
 
     fn impulses(&self, state: &State) -> (Vec3, Vec3) {
-        let xi = self.relative_to_fluid(state).xi;
-        let (p, l) = split(&mul(&self.kirchhoff.total, &xi));
-        let world = |a| crate::linalg::rotate(state.orientation, a);
+        let xi = self.equations.relative_to_fluid(&state.motion()).xi;
+        let (p, l) = split(&mul(&self.equations.kirchhoff.total, &xi));
+        let world = |a| rotate(state.orientation, a);
         let linear = world(p);
-        (
-            linear,
-            add(world(l), crate::linalg::cross(state.position, linear)),
-        )
+        (linear, add(world(l), cross(state.position, linear)))
     }
 
-    /// The paper's scheme for Kirchhoff's and the Langevin part together.
-    /// In parts where the body moves so fast that the coefficients would not hold over the step.
-    fn strang_step(
+    fn paper_step(
         &self,
-        motion: &mut Motion,
-        langevin: &Langevin,
+        paper: &Paper,
+        before: &Motion,
         state: &State,
         dt: f64,
         noise: &NoiseStream,
-    ) {
-        let mut done = 0.0;
-        for part in 0..MOST_PARTS {
-            let (time, left) = (state.time + done, dt - done);
-            let wanted = langevin.longest_step(&motion.xi, time);
-            let h = wanted.max(dt / f64::from(MOST_PARTS)).min(left);
-            let (first, second) = halves(&noise.normals_of_part(state.step, part));
-            langevin.step(&mut motion.xi, time, 0.5 * h, &first);
-            self.kirchhoff.step(motion, h, unloaded);
-            langevin.step(&mut motion.xi, time + 0.5 * h, 0.5 * h, &second);
-            done += h;
-            // What rounding leaves is no part.
-            if (dt - done).abs() <= 1e-9 * dt.abs() {
-                return;
+    ) -> (Motion, bool) {
+        let normals = Counter::new(state.step, noise.body).normals(noise.seed);
+        let mut motion = self.equations.relative_to_fluid(before);
+        match paper {
+            Paper::RungeKutta4(langevin) => {
+                self.runge_kutta_step(&mut motion, langevin.as_deref(), state.time, dt, &normals);
             }
+            Paper::Published(published) => published.step(&mut motion, state.time, dt, &normals),
         }
+        let after = self.equations.in_the_world(motion, dt);
+        let sound = possible(&after);
+        (after, sound)
     }
 
     fn runge_kutta_step(
@@ -267,101 +290,97 @@ impl Stepper {
         dt: f64,
         normals: &[f64; 6],
     ) {
+        let kirchhoff = &self.equations.kirchhoff;
         let start = motion.xi;
         runge_kutta::step(motion, time, dt, |m, t| {
-            let mut rate = self.kirchhoff.momentum_rate(&m.xi);
-            accumulate(&mut rate, &self.kirchhoff.static_load(m.orientation));
+            let mut rate = kirchhoff.momentum_rate(&m.xi);
+            accumulate(&mut rate, &kirchhoff.static_load(m.orientation));
             if let Some(langevin) = langevin {
                 accumulate(&mut rate, &langevin.relaxation(&m.xi, t));
             }
-            mul(&self.kirchhoff.inverse, &rate)
+            mul(&kirchhoff.inverse, &rate)
         });
         if let Some(langevin) = langevin {
-            let kick = langevin.kick(&start, time, dt, normals);
-            accumulate(&mut motion.xi, &mul(&self.kirchhoff.inverse, &kick));
+            accumulate(&mut motion.xi, &langevin.kick(&start, time, dt, normals));
         }
     }
+}
 
-    /// The motion in the inertial frame that the undisturbed fluid is at rest in.
-    fn relative_to_fluid(&self, state: &State) -> Motion {
-        let current = rotate_back(state.orientation, self.current);
+impl State {
+    fn motion(&self) -> Motion {
         Motion {
-            position: state.position,
-            orientation: state.orientation,
-            xi: join(sub(state.velocity, current), state.angular_velocity),
+            position: self.position,
+            orientation: self.orientation,
+            xi: join(self.velocity, self.angular_velocity),
         }
     }
 
-    fn in_the_world(&self, motion: &Motion, before: &State, dt: f64) -> State {
-        let (v, angular_velocity) = split(&motion.xi);
-        let step = before.step + 1;
-        State {
-            time: before.time + dt,
+    fn of(motion: &Motion, time: f64, step: u64) -> Self {
+        let (velocity, angular_velocity) = split(&motion.xi);
+        Self {
+            time,
             step,
-            position: add_scaled(motion.position, dt, self.current),
+            position: motion.position,
             orientation: motion.orientation,
-            velocity: add(v, rotate_back(motion.orientation, self.current)),
+            velocity,
             angular_velocity,
         }
     }
 }
 
-impl Scheme {
-    fn new(
-        body: &Body,
-        fluid: &Fluid,
-        history: Option<&TurbulenceHistory>,
-        settings: &Settings,
-        kirchhoff: &Kirchhoff,
-    ) -> Result<Self, SetupError> {
-        let source = || {
-            let reynolds = settings
-                .reynolds
-                .unwrap_or_else(|| falling_reynolds(body, fluid, settings.gravity));
-            let length = settings
-                .turbulence_length
-                .unwrap_or_else(|| body.turbulence_length());
-            PreparedSource::new(
-                settings.turbulence,
-                history,
-                length,
-                kolmogorov_c0(reynolds),
-            )
+/// The loads of a model, and the paper's integrator if that is to take the steps.
+fn loads(
+    body: &Body,
+    fluid: &Fluid,
+    history: Option<&TurbulenceHistory>,
+    settings: &Settings,
+    kirchhoff: &Kirchhoff,
+) -> Result<(Loads, Option<Paper>), SetupError> {
+    let source = || {
+        let reynolds = settings
+            .reynolds
+            .unwrap_or_else(|| falling_reynolds(body, fluid, settings.gravity));
+        let length = settings
+            .turbulence_length
+            .unwrap_or_else(|| body.turbulence_length());
+        let c0 = kolmogorov_c0(reynolds);
+        PreparedSource::new(settings.turbulence, history, length, c0)
             .ok_or(SetupError::NoHistory(settings.turbulence))
-        };
-        let langevin = match settings.model {
-            Model::Kirchhoff => None,
-            Model::Consistent => {
-                let added = body.added_mass.map(|row| row.map(|a| fluid.density * a));
-                let langevin =
-                    Langevin::new(added, &kirchhoff.total, body.rotation_length(), source()?);
-                Some(Box::new(langevin.ok_or(SetupError::TotalMass)?))
-            }
-            Model::Separated => {
-                let added = body.added_mass.map(|row| row.map(|a| fluid.density * a));
-                let constants = settings.separated;
-                let source = source()?.with_intensity(constants.turbulence_intensity);
-                let noise = Langevin::new(added, &kirchhoff.total, body.rotation_length(), source);
-                let noise = noise.ok_or(SetupError::TotalMass)?;
-                let closure = Closure::new(body, fluid.density, fluid.viscosity, constants)
-                    .ok_or(SetupError::NoSeparation)?;
-                return Ok(Self::Separated(Box::new(Separated { closure, noise })));
-            }
-            Model::Published(_) if settings.integrator != Integrator::RungeKutta4 => {
-                return Err(SetupError::PublishedIntegrator);
-            }
-            Model::Published(units) => {
-                let published = Published::new(body, fluid, settings.gravity, units, source()?);
-                return Ok(Self::Published(Box::new(
-                    published.ok_or(SetupError::TotalMass)?,
-                )));
-            }
-        };
-        Ok(match settings.integrator {
-            Integrator::Strang => Self::Strang(langevin),
-            Integrator::RungeKutta4 => Self::RungeKutta4(langevin),
-        })
-    }
+    };
+    let langevin = |source| {
+        let added = body.added_mass.map(|row| row.map(|a| fluid.density * a));
+        Langevin::new(added, &kirchhoff.total, body.rotation_length(), source)
+            .ok_or(SetupError::TotalMass)
+    };
+    let by_the_paper = settings.integrator == Integrator::RungeKutta4;
+    Ok(match settings.model {
+        Model::Kirchhoff if by_the_paper => (Loads::None, Some(Paper::RungeKutta4(None))),
+        Model::Kirchhoff => (Loads::None, None),
+        Model::Consistent if by_the_paper => {
+            let langevin = langevin(source()?)?;
+            (
+                Loads::None,
+                Some(Paper::RungeKutta4(Some(Box::new(langevin)))),
+            )
+        }
+        Model::Consistent => (Loads::Langevin(Box::new(langevin(source()?)?)), None),
+        Model::Separated => {
+            let constants = settings.separated;
+            let noise = langevin(source()?.with_intensity(constants.turbulence_intensity))?;
+            let closure = Closure::new(body, fluid.density, fluid.viscosity, constants)
+                .ok_or(SetupError::NoSeparation)?;
+            (
+                Loads::Separated(Box::new(Separated { closure, noise })),
+                None,
+            )
+        }
+        Model::Published(units) if by_the_paper => {
+            let published = Published::new(body, fluid, settings.gravity, units, source()?)
+                .ok_or(SetupError::TotalMass)?;
+            (Loads::None, Some(Paper::Published(Box::new(published))))
+        }
+        Model::Published(_) => return Err(SetupError::PublishedIntegrator),
+    })
 }
 
 /// Mean falling speed U0 of Eq. (1) (m/s), with the absolute difference of the densities so that
@@ -414,22 +433,6 @@ fn check(fluid: &Fluid, settings: &Settings) -> Result<(), SetupError> {
         }
     }
     Ok(())
-}
-
-fn halves(normals: &[f64; 12]) -> ([f64; 6], [f64; 6]) {
-    (
-        std::array::from_fn(|i| normals[i]),
-        std::array::from_fn(|i| normals[6 + i]),
-    )
-}
-
-/// No load beside gravity and buoyancy.
-fn unloaded(_: &Vec6) -> Vec6 {
-    [0.0; 6]
-}
-
-fn fastest(state: &State) -> f64 {
-    norm(state.velocity).max(norm(state.angular_velocity))
 }
 
 fn accumulate(sum: &mut Vec6, term: &Vec6) {

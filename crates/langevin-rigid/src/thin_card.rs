@@ -89,7 +89,7 @@ impl Card {
         let mut turn = start[3];
         for _ in 0..steps {
             let before = motion.xi[5];
-            self.0.step(&mut motion, h, Self::load);
+            self.0.step(&mut motion, h, |xi| Some(Self::load(xi)));
             turn += 0.5 * h * (before + motion.xi[5]);
             // The quaternion knows the turn to rounding, the sum knows how often around.
             let [_, _, z, w] = motion.orientation;

@@ -1,7 +1,9 @@
 //! Turbulence at the body: the precomputed history, the sources a run samples, and the coefficients
 //! of the Langevin equation that follow from it.
 
-use crate::linalg::{Vec3, norm};
+use std::sync::Arc;
+
+use crate::real::Real;
 
 /// Model constant of the turbulent viscosity, Eq. (14).
 pub const C_MU: f64 = 0.09;
@@ -136,17 +138,24 @@ impl Default for TurbulenceSource {
 
 /// A source made ready: turns speed and time into Langevin coefficients.
 #[derive(Debug, Clone)]
-pub(crate) enum PreparedSource {
+pub(crate) enum PreparedSource<R = f64> {
     BodyDriven {
-        /// alpha at unit speed.
-        alpha: f64,
-        /// beta at unit speed.
-        beta: f64,
+        /// alpha at unit speed (1/m).
+        alpha: R,
+        /// beta^2 at unit speed (1/m, times the cube of a speed).
+        diffusion: R,
     },
     History {
-        history: TurbulenceHistory,
+        history: Arc<TurbulenceHistory>,
         c0: f64,
     },
+}
+
+/// alpha (1/s) and beta^2 (m^2/s^3), one or one per lane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Coefficients<R = f64> {
+    pub(crate) alpha: R,
+    pub(crate) diffusion: R,
 }
 
 impl PreparedSource {
@@ -169,10 +178,13 @@ impl PreparedSource {
                     epsilon: unit.epsilon / length,
                 };
                 let LangevinCoefficients { alpha, beta } = LangevinCoefficients::new(at_length, c0);
-                Some(Self::BodyDriven { alpha, beta })
+                Some(Self::BodyDriven {
+                    alpha,
+                    diffusion: beta * beta,
+                })
             }
             TurbulenceSource::History => {
-                let history = history.filter(|h| h.at(0.0).is_some())?.clone();
+                let history = Arc::new(history.filter(|h| h.at(0.0).is_some())?.clone());
                 Some(Self::History { history, c0 })
             }
         }
@@ -181,36 +193,55 @@ impl PreparedSource {
     /// The same source with fluctuations of `intensity` times the speed.
     pub(crate) fn with_intensity(self, intensity: f64) -> Self {
         match self {
-            Self::BodyDriven { alpha, beta } => Self::BodyDriven {
+            Self::BodyDriven { alpha, diffusion } => Self::BodyDriven {
                 alpha: alpha * intensity,
-                beta: beta * intensity * intensity.sqrt(),
+                diffusion: diffusion * intensity * intensity * intensity,
             },
             history @ Self::History { .. } => history,
         }
     }
 
-    /// Coefficients at `velocity` (relative to the fluid) and `time` since release.
-    pub(crate) fn coefficients(&self, velocity: Vec3, time: f64) -> LangevinCoefficients {
+    /// The same in the lanes of `like`.
+    pub(crate) fn lift<R: Real>(&self, like: R) -> PreparedSource<R> {
+        match self {
+            Self::BodyDriven { alpha, diffusion } => PreparedSource::BodyDriven {
+                alpha: like.of(*alpha),
+                diffusion: like.of(*diffusion),
+            },
+            Self::History { history, c0 } => PreparedSource::History {
+                history: Arc::clone(history),
+                c0: *c0,
+            },
+        }
+    }
+}
+
+impl<R: Real> PreparedSource<R> {
+    /// Coefficients at the speed relative to the fluid (m/s) and `time` since release (s).
+    #[inline(always)]
+    pub(crate) fn coefficients(&self, speed: R, time: R) -> Coefficients<R> {
         match self {
             // k grows with U^2 and epsilon with U^3.
-            Self::BodyDriven { alpha, beta } => {
-                let speed = norm(velocity);
-                LangevinCoefficients {
-                    alpha: alpha * speed,
-                    beta: beta * speed * speed.sqrt(),
-                }
-            }
+            Self::BodyDriven { alpha, diffusion } => Coefficients {
+                alpha: *alpha * speed,
+                diffusion: *diffusion * speed * (speed * speed),
+            },
             Self::History { history, c0 } => {
                 let calm = Turbulence {
                     k: 0.0,
                     epsilon: 0.0,
                 };
-                LangevinCoefficients::new(history.at(time).unwrap_or(calm), *c0)
+                let at = |t: f64| LangevinCoefficients::new(history.at(t).unwrap_or(calm), *c0);
+                Coefficients {
+                    alpha: time.map(|t| at(t).alpha),
+                    diffusion: time.map(|t| at(t).beta * at(t).beta),
+                }
             }
         }
     }
 
     /// Whether the coefficients follow the body's speed.
+    #[inline(always)]
     pub(crate) fn follows_speed(&self) -> bool {
         matches!(self, Self::BodyDriven { .. })
     }
@@ -302,12 +333,12 @@ mod tests {
     fn body_driven_coefficients_follow_from_the_turbulence_at_birth() {
         let source = TurbulenceSource::default();
         let prepared = PreparedSource::new(source, None, 0.02, 6.4).unwrap();
-        let c = prepared.coefficients([0.0, 0.6, -0.8], 3.0);
+        let c = prepared.coefficients(1.0, 3.0);
         let wanted = LangevinCoefficients::new(Turbulence::at_birth(1.0, 0.02), 6.4);
         assert!((c.alpha / wanted.alpha - 1.0).abs() < 1e-14);
-        assert!((c.beta / wanted.beta - 1.0).abs() < 1e-14);
-        let rest = prepared.coefficients([0.0; 3], 0.0);
-        assert_eq!((rest.alpha, rest.beta), (0.0, 0.0));
+        assert!((c.diffusion.sqrt() / wanted.beta - 1.0).abs() < 1e-14);
+        let rest = prepared.coefficients(0.0, 0.0);
+        assert_eq!((rest.alpha, rest.diffusion), (0.0, 0.0));
     }
 
     #[test]

@@ -7,6 +7,7 @@
 
 mod common;
 
+use common::{distance, ellipsoid};
 use langevin_rigid::linalg::{quat_from_rotation_vector, rotate};
 use langevin_rigid::{
     Fluid, Model, NoiseStream, SeparatedFlow, Separation, Settings, State, Stepper,
@@ -97,4 +98,36 @@ fn a_body_without_extents_is_refused() {
     };
     let error = Stepper::new(&body, &Fluid::WATER, None, &settings).unwrap_err();
     assert!(error.to_string().contains("bake"), "{error}");
+}
+
+/// A body with three planes of symmetry has a step of its own.
+#[test]
+fn a_symmetric_body_moves_like_one_that_hardly_is_not() {
+    let symmetric = ellipsoid([0.04, 0.02, 0.01], 1200.0);
+    let mut bent = symmetric.clone();
+    bent.inertia[0][1] = 1e-9 * bent.inertia[1][1];
+    bent.inertia[1][0] = bent.inertia[0][1];
+    for model in [Model::Separated, Model::Kirchhoff] {
+        let settings = Settings {
+            model,
+            ..Settings::default()
+        };
+        let run = |body| {
+            let stepper = Stepper::new(body, &Fluid::WATER, None, &settings).unwrap();
+            let mut state = State {
+                velocity: [0.1, -0.3, 0.2],
+                angular_velocity: [3.0, -1.0, 2.0],
+                ..State::default()
+            };
+            for _ in 0..50 {
+                let noise = NoiseStream::default();
+                stepper.step(&mut state, 2e-3, &noise).unwrap();
+            }
+            state
+        };
+        let (a, b) = (run(&symmetric), run(&bent));
+        assert!(a != b, "both took the same path through the code");
+        assert!(distance(a.position, b.position) < 1e-8, "{model}");
+        assert!(distance(a.angular_velocity, b.angular_velocity) < 1e-6);
+    }
 }

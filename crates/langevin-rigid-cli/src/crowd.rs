@@ -1,0 +1,120 @@
+//! `langevin-rigid crowd`
+
+use std::io::Write;
+use std::time::{Duration, Instant};
+
+use anyhow::{Result, bail};
+use langevin_rigid::{Batch, BatchError, Stepper};
+use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_formats::{baking, scene};
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::arguments::Crowd;
+use crate::bars::Bars;
+use crate::cache;
+use crate::simulate::set_model;
+
+const FRAMES_PER_SECOND: f64 = 60.0;
+
+/// What is printed.
+#[derive(Debug, Serialize)]
+struct Report {
+    scene: String,
+    model: String,
+    bodies: u32,
+    threads: usize,
+    time_step: f64,
+    frames: usize,
+    /// Frames whose steps took longer than a frame.
+    missed_frames: usize,
+    median_frame_ms: f64,
+    longest_frame_ms: f64,
+}
+
+pub(crate) fn crowd(options: &Crowd, bars: &Bars) -> Result<()> {
+    let mut scene = scene::find(&options.scene)?;
+    set_model(options.model, &mut scene);
+    let baked = cache::bake(&scene, bars)?;
+    let stepper = baking::stepper(&scene, &baked.bake)?;
+    let mut batch = Batch::<f64>::new(scene.seed);
+    for _ in 0..options.bodies {
+        batch.push(&scene.release);
+    }
+
+    let frame = Duration::from_secs_f64(1.0 / FRAMES_PER_SECOND);
+    let frames = (options.seconds * FRAMES_PER_SECOND).ceil() as usize;
+    let mut spent = Vec::with_capacity(frames);
+    let mut steps = 0u64;
+    let mut due = Instant::now();
+    for number in 1..=frames {
+        if bars.cancelled() {
+            break;
+        }
+        let started = Instant::now();
+        let wanted = (number as f64 / FRAMES_PER_SECOND / scene.time_step).round() as u64;
+        while steps < wanted {
+            step(&stepper, &mut batch, scene.time_step)?;
+            steps += 1;
+        }
+        spent.push(started.elapsed());
+        bars.report("crowd", number as f64 / frames as f64);
+        // In real time: the next frame begins when it is due, or now if it is late.
+        due = (due + frame).max(Instant::now());
+        std::thread::sleep(due.saturating_duration_since(Instant::now()));
+    }
+    bars.clear();
+    if spent.is_empty() {
+        bail!("interrupted before the first frame");
+    }
+    let missed_frames = spent.iter().filter(|&&time| time > frame).count();
+    spent.sort_unstable();
+    let milliseconds = |time: Duration| 1e3 * time.as_secs_f64();
+    let report = Report {
+        scene: scene.name.clone(),
+        model: scene.settings.model.to_string(),
+        bodies: options.bodies,
+        threads: rayon::current_num_threads(),
+        time_step: scene.time_step,
+        frames: spent.len(),
+        missed_frames,
+        median_frame_ms: milliseconds(spent[spent.len() / 2]),
+        longest_frame_ms: milliseconds(spent[spent.len() - 1]),
+    };
+    tell(&report, options.json)
+}
+
+/// One step of all bodies, shared among the threads.
+fn step(stepper: &Stepper, batch: &mut Batch, dt: f64) -> Result<(), BatchError> {
+    let packs = batch.packs_mut();
+    let share = packs.len().div_ceil(4 * rayon::current_num_threads()).max(1);
+    packs
+        .par_chunks_mut(share)
+        .try_for_each(|share| stepper.step_packs(share, dt))
+}
+
+fn tell(report: &Report, json: bool) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    if json {
+        writeln!(out, "{}", serde_json::to_string_pretty(report)?)?;
+        return Ok(());
+    }
+    let Report {
+        scene,
+        model,
+        bodies,
+        threads,
+        ..
+    } = report;
+    writeln!(
+        out,
+        "{bodies} bodies of {scene} ({model}), steps of {:.1} ms, {threads} threads:",
+        1e3 * report.time_step
+    )?;
+    writeln!(
+        out,
+        "{} frames at 60 a second, {} missed; a frame took {:.1} ms (median), {:.1} ms at most",
+        report.frames, report.missed_frames, report.median_frame_ms, report.longest_frame_ms
+    )?;
+    Ok(())
+}

@@ -1,0 +1,395 @@
+//! Many bodies of one shape: a structure of arrays that steps in SIMD lanes.
+
+use fearless_simd::{Level, Simd, dispatch};
+
+use crate::equations::{Equations, Noise};
+use crate::kirchhoff::Motion;
+use crate::lanes::{Doubles, Lanes, Singles};
+use crate::linalg::{each, join};
+use crate::noise::{Counter, NoiseStream};
+use crate::settings::Model;
+use crate::shape::{General, Shape, Symmetric};
+use crate::state::State;
+use crate::stepper::{StepError, Stepper};
+
+/// Bodies in a [`Pack`]: a multiple of the lanes of every processor.
+const PACK: usize = 16;
+
+/// The precision of a [`Batch`]: `f64`, or `f32` for twice the bodies in the same time.
+///
+/// In `f32` the noise has 23 random bits a number, and a step adds some 1e-6 of the speed; the body
+/// leaves its path in double precision as it would after a change of its release by as much.
+pub trait Precision: sealed::Sealed + Copy + Send + Sync {}
+
+impl Precision for f64 {}
+impl Precision for f32 {}
+
+mod sealed {
+    use super::{Pack, Stepper};
+
+    /// What a precision must do.
+    pub trait Sealed: Sized + 'static {
+        const ZERO: Self;
+        fn of(value: f64) -> Self;
+        fn to_f64(self) -> f64;
+        fn step(stepper: &Stepper, packs: &mut [Pack<Self>], dt: f64, diverged: &mut Vec<u32>);
+    }
+}
+
+macro_rules! precision {
+    ($scalar:ident, $lanes:ident) => {
+        impl sealed::Sealed for $scalar {
+            const ZERO: Self = 0.0;
+
+            fn of(value: f64) -> Self {
+                value as Self
+            }
+
+            fn to_f64(self) -> f64 {
+                self.into()
+            }
+
+            fn step(
+                stepper: &Stepper,
+                packs: &mut [Pack<Self>],
+                dt: f64,
+                diverged: &mut Vec<u32>,
+            ) {
+                let equations = &stepper.equations;
+                if stepper.symmetric.is_some() {
+                    dispatch!(Level::new(), simd => step_packs::<_, $lanes<_>, Symmetric>(
+                        simd, equations, packs, dt, diverged));
+                } else {
+                    dispatch!(Level::new(), simd => step_packs::<_, $lanes<_>, General>(
+                        simd, equations, packs, dt, diverged));
+                }
+            }
+        }
+    };
+}
+
+precision!(f64, Doubles);
+precision!(f32, Singles);
+
+/// Bodies of one shape and their streams of noise.
+///
+/// ```
+/// use langevin_rigid::{Batch, State};
+/// let mut batch = Batch::<f64>::new(7);
+/// for _ in 0..100 {
+///     batch.push(&State::default());
+/// }
+/// assert_eq!(batch.len(), 100);
+/// assert_eq!(batch.state(99), Some(State::default()));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Batch<P = f64> {
+    seed: u64,
+    packs: Vec<Pack<P>>,
+}
+
+/// Some bodies of a [`Batch`], which step together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pack<P = f64> {
+    seed: u64,
+    bodies: [u32; PACK],
+    /// How many of the places are taken.
+    taken: usize,
+    step: [u64; PACK],
+    time: [f64; PACK],
+    position: [[P; PACK]; 3],
+    orientation: [[P; PACK]; 4],
+    velocity: [[P; PACK]; 6],
+}
+
+/// Bodies of a batch could not take a step.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "{} of the bodies diverged, the first is body {} (time step {time_step} s, model `{model}`): no longer finite, or faster than {:e} m/s; use a smaller time step",
+    .bodies.len(), .bodies.first().copied().unwrap_or_default(), crate::SPEED_LIMIT
+)]
+pub struct BatchError {
+    /// Their numbers; each is left as it was before the step.
+    pub bodies: Vec<u32>,
+    /// Time step (s).
+    pub time_step: f64,
+    /// Model of the run.
+    pub model: Model,
+}
+
+impl<P: Precision> Batch<P> {
+    /// No bodies yet; `seed` is that of the run.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            seed,
+            packs: Vec::new(),
+        }
+    }
+
+    /// Adds a body; its number in the batch, from zero, is also the number of its noise.
+    pub fn push(&mut self, state: &State) {
+        let body = self.len();
+        if body.is_multiple_of(PACK) {
+            self.packs.push(Pack::new(self.seed));
+        }
+        let pack = &mut self.packs[body / PACK];
+        pack.bodies[body % PACK] = body as u32;
+        pack.taken += 1;
+        pack.set(body % PACK, state);
+    }
+
+    /// Number of bodies.
+    pub fn len(&self) -> usize {
+        match self.packs.split_last() {
+            Some((last, full)) => full.len() * PACK + last.taken,
+            None => 0,
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.packs.is_empty()
+    }
+
+    /// The state of body number `body`, if there is one.
+    pub fn state(&self, body: usize) -> Option<State> {
+        let pack = self.packs.get(body / PACK)?;
+        (body % PACK < pack.taken).then(|| pack.state(body % PACK))
+    }
+
+    /// Puts body number `body` into `state`; false if there is no such body.
+    pub fn set(&mut self, body: usize, state: &State) -> bool {
+        let taken = body < self.len();
+        if taken {
+            self.packs[body / PACK].set(body % PACK, state);
+        }
+        taken
+    }
+
+    /// The bodies in packs, each of which can be stepped on a thread of its own.
+    pub fn packs_mut(&mut self) -> &mut [Pack<P>] {
+        &mut self.packs
+    }
+}
+
+impl<P: Precision> Pack<P> {
+    fn new(seed: u64) -> Self {
+        let mut pack = Self {
+            seed,
+            bodies: [0; PACK],
+            taken: 0,
+            step: [0; PACK],
+            time: [0.0; PACK],
+            position: [[P::ZERO; PACK]; 3],
+            orientation: [[P::ZERO; PACK]; 4],
+            velocity: [[P::ZERO; PACK]; 6],
+        };
+        // Places not taken step too: they rest.
+        for place in 0..PACK {
+            pack.set(place, &State::default());
+        }
+        pack
+    }
+
+    fn state(&self, place: usize) -> State {
+        let velocity = self.velocity.map(|x| x[place].to_f64());
+        State {
+            time: self.time[place],
+            step: self.step[place],
+            position: self.position.map(|x| x[place].to_f64()),
+            orientation: self.orientation.map(|x| x[place].to_f64()),
+            velocity: [velocity[0], velocity[1], velocity[2]],
+            angular_velocity: [velocity[3], velocity[4], velocity[5]],
+        }
+    }
+
+    fn set(&mut self, place: usize, state: &State) {
+        self.time[place] = state.time;
+        self.step[place] = state.step;
+        put(&mut self.position, place, &state.position);
+        put(&mut self.orientation, place, &state.orientation);
+        let [v, omega] = [state.velocity, state.angular_velocity];
+        let xi = join(v, omega);
+        put(&mut self.velocity, place, &xi);
+    }
+
+    /// One body after the other, in double precision.
+    pub(crate) fn step_each(
+        &mut self,
+        diverged: &mut Vec<u32>,
+        step: impl Fn(&mut State, &NoiseStream) -> Result<(), StepError>,
+    ) {
+        for place in 0..self.taken {
+            let noise = NoiseStream {
+                seed: self.seed,
+                body: self.bodies[place],
+            };
+            let mut state = self.state(place);
+            match step(&mut state, &noise) {
+                Ok(()) => self.set(place, &state),
+                Err(StepError::Diverged { .. }) => diverged.push(noise.body),
+            }
+        }
+    }
+}
+
+fn put<P: Precision, const N: usize>(to: &mut [[P; PACK]; N], place: usize, from: &[f64; N]) {
+    for (column, &value) in to.iter_mut().zip(from) {
+        column[place] = P::of(value);
+    }
+}
+
+#[inline(always)]
+fn step_packs<S: Simd, L: Lanes<S>, F: Shape>(
+    simd: S,
+    equations: &Equations,
+    packs: &mut [Pack<L::Scalar>],
+    dt: f64,
+    diverged: &mut Vec<u32>,
+) where
+    L::Scalar: Precision,
+{
+    let equations = equations.lift::<F, L>(L::splat(simd, 0.0));
+    for pack in packs {
+        for first in (0..pack.taken).step_by(L::COUNT) {
+            step_lanes::<S, L, F>(simd, &equations, pack, first, dt, diverged);
+        }
+    }
+}
+
+/// Steps the bodies of `pack` from place `first` on, as many as there are lanes.
+#[inline(always)]
+fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
+    simd: S,
+    equations: &Equations<F, L>,
+    pack: &mut Pack<L::Scalar>,
+    first: usize,
+    dt: f64,
+    diverged: &mut Vec<u32>,
+) where
+    L::Scalar: Precision,
+{
+    let lanes = first..first + L::COUNT;
+    let before = Motion {
+        position: load_columns(simd, &pack.position, first),
+        orientation: load_columns(simd, &pack.orientation, first),
+        xi: load_columns(simd, &pack.velocity, first),
+    };
+    let noise = Noise {
+        seed: pack.seed,
+        counter: Counter {
+            step: L::load_halves(simd, &pack.step[lanes.clone()]),
+            body: L::load_words(simd, &pack.bodies[lanes.clone()]),
+        },
+    };
+
+    let time = L::load_doubles(simd, &pack.time[lanes.clone()]);
+    let (after, sound) = equations.step(&before, time, dt, &noise);
+
+    let sound = L::bits(sound);
+    let was = (sound != (1 << L::COUNT) - 1).then(|| pack.clone());
+    store_columns(&mut pack.position, first, &after.position);
+    store_columns(&mut pack.orientation, first, &after.orientation);
+    store_columns(&mut pack.velocity, first, &after.xi);
+    for place in lanes.clone() {
+        pack.time[place] += dt;
+        pack.step[place] += 1;
+    }
+    let Some(was) = was else { return };
+    for place in lanes.filter(|place| sound & (1 << (place - first)) == 0) {
+        pack.set(place, &was.state(place));
+        if place < pack.taken {
+            diverged.push(pack.bodies[place]);
+        }
+    }
+}
+
+#[inline(always)]
+fn load_columns<S: Simd, L: Lanes<S>, const N: usize>(
+    simd: S,
+    columns: &[[L::Scalar; PACK]; N],
+    first: usize,
+) -> [L; N] {
+    each(
+        L::splat(simd, 0.0),
+        #[inline(always)]
+        |i| L::load(simd, &columns[i][first..first + L::COUNT]),
+    )
+}
+
+#[inline(always)]
+fn store_columns<S: Simd, L: Lanes<S>, const N: usize>(
+    columns: &mut [[L::Scalar; PACK]; N],
+    first: usize,
+    values: &[L; N],
+) {
+    for i in 0..N {
+        values[i].store(&mut columns[i][first..first + L::COUNT]);
+    }
+}
+
+#[cfg(test)]
+#[cfg(target_arch = "x86_64")]
+mod tests {
+    use super::*;
+    use crate::{Body, Fluid, Settings};
+
+    fn stepper() -> Stepper {
+        let mut body = Body {
+            mass: 1.0,
+            inertia: [[1.0, 0.1, 0.0], [0.1, 2.0, 0.0], [0.0, 0.0, 1.5]],
+            volume: 1e-3,
+            centre_of_buoyancy: [0.01, 0.02, -0.01],
+            added_mass: [[0.0; 6]; 6],
+            half_extents: [0.3, 0.2, 0.1],
+            thickness: 0.1,
+            length: 0.6,
+            separation: Default::default(),
+            parts: vec![],
+            surface: Default::default(),
+        };
+        for i in 0..6 {
+            body.added_mass[i][i] = 1e-3 * (1 + i) as f64;
+        }
+        let settings = Settings {
+            model: Model::Consistent,
+            ..Settings::default()
+        };
+        Stepper::new(&body, &Fluid::WATER, None, &settings).unwrap()
+    }
+
+    fn run<S: Simd>(simd: S) -> Batch {
+        let stepper = stepper();
+        let mut batch = Batch::new(3);
+        for body in 0..PACK {
+            batch.push(&State {
+                velocity: [0.1 * body as f64, 0.2, 0.3],
+                ..State::default()
+            });
+        }
+        let mut diverged = Vec::new();
+        for _ in 0..50 {
+            let packs = batch.packs_mut();
+            step_packs::<S, Doubles<S>, General>(
+                simd,
+                &stepper.equations,
+                packs,
+                5e-3,
+                &mut diverged,
+            );
+        }
+        assert!(diverged.is_empty());
+        batch
+    }
+
+    #[test]
+    fn every_width_gives_the_same_bits() {
+        let level = Level::new();
+        let two = level.as_sse2().map(run);
+        assert!(two.is_some());
+        let wider = [level.as_avx2().map(run), level.as_avx512().map(run)];
+        for batch in wider.into_iter().flatten() {
+            assert_eq!(Some(batch), two);
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! What a body's symmetry makes of its tensors.
+//!
+//! A body with three planes of symmetry (an ellipsoid, a box, a coin, a sheet) has diagonal tensors in
+//! its own axes, and its step needs much less arithmetic. The equations are therefore written over a
+//! [`Shape`]: [`General`] or [`Symmetric`].
+
+use std::fmt::Debug;
+
+use crate::body::{Body, Separation};
+use crate::langevin::Langevin;
+use crate::linalg::{Mat3, Mat6, Vec3, Vec6, each, lift, lift_matrix, mat_vec, mul};
+use crate::modes::{Axes, Eigenmodes, Modes};
+use crate::real::Real;
+
+/// How a body's tensors are kept and applied.
+pub(crate) trait Shape: Debug + Clone {
+    /// A 6x6 tensor.
+    type Tensor<R: Real>: Tensor<R> + Debug + Clone;
+    /// A 3x3 tensor.
+    type Block<R: Real>: Block<R> + Debug + Clone;
+    /// The modes of the Langevin loads.
+    type Modes<R: Real>: Modes<R> + Debug + Clone;
+    /// Whether buoyancy acts at the centre of mass.
+    const CENTRED: bool;
+
+    /// `m` in the lanes of `like`.
+    fn tensor<R: Real>(like: R, m: &Mat6) -> Self::Tensor<R>;
+    /// `m` in the lanes of `like`.
+    fn block<R: Real>(like: R, m: &Mat3) -> Self::Block<R>;
+    /// The modes of `langevin` in the lanes of `like`; `total` is the tensor T.
+    fn modes<R: Real>(like: R, langevin: &Langevin, total: &Mat6) -> Self::Modes<R>;
+}
+
+pub(crate) trait Tensor<R> {
+    fn times(&self, a: &Vec6<R>) -> Vec6<R>;
+}
+
+pub(crate) trait Block<R> {
+    fn times(&self, a: Vec3<R>) -> Vec3<R>;
+}
+
+/// Any body.
+#[derive(Debug, Clone)]
+pub(crate) struct General;
+
+impl Shape for General {
+    type Tensor<R: Real> = Mat6<R>;
+    type Block<R: Real> = Mat3<R>;
+    type Modes<R: Real> = Eigenmodes<R>;
+    const CENTRED: bool = false;
+
+    fn tensor<R: Real>(like: R, m: &Mat6) -> Mat6<R> {
+        lift_matrix(like, m)
+    }
+    fn block<R: Real>(like: R, m: &Mat3) -> Mat3<R> {
+        lift_matrix(like, m)
+    }
+    fn modes<R: Real>(like: R, langevin: &Langevin, _: &Mat6) -> Eigenmodes<R> {
+        langevin.modes.lift(like)
+    }
+}
+
+impl<R: Real> Tensor<R> for Mat6<R> {
+    #[inline(always)]
+    fn times(&self, a: &Vec6<R>) -> Vec6<R> {
+        mul(self, a)
+    }
+}
+
+impl<R: Real> Block<R> for Mat3<R> {
+    #[inline(always)]
+    fn times(&self, a: Vec3<R>) -> Vec3<R> {
+        mat_vec(self, a)
+    }
+}
+
+/// A body with three planes of symmetry and its buoyancy at its centre of mass.
+#[derive(Debug, Clone)]
+pub(crate) struct Symmetric;
+
+impl Shape for Symmetric {
+    type Tensor<R: Real> = Diagonal<R, 6>;
+    type Block<R: Real> = Diagonal<R, 3>;
+    type Modes<R: Real> = Axes<R>;
+    const CENTRED: bool = true;
+
+    fn tensor<R: Real>(like: R, m: &Mat6) -> Diagonal<R, 6> {
+        Diagonal::new(like, m)
+    }
+    fn block<R: Real>(like: R, m: &Mat3) -> Diagonal<R, 3> {
+        Diagonal::new(like, m)
+    }
+    fn modes<R: Real>(like: R, langevin: &Langevin, total: &Mat6) -> Axes<R> {
+        langevin.axes(like, total)
+    }
+}
+
+impl Symmetric {
+    /// Whether the body is one, to within what rounding leaves of a zero.
+    pub(crate) fn includes(body: &Body, fluid_density: f64) -> bool {
+        let Separation {
+            drag_area,
+            extents,
+            stokes_translation,
+            stokes_rotation,
+        } = &body.separation;
+        let of_body = [drag_area, extents, stokes_translation, stokes_rotation];
+        let of_parts = body.parts.iter().flat_map(|part| {
+            [
+                &part.translation,
+                &part.rotation,
+                &part.drag_area,
+                &part.extents,
+            ]
+        });
+        let size = body.half_extents[0];
+        is_diagonal(&body.total_mass(fluid_density))
+            && is_diagonal(&body.added_mass)
+            && body
+                .centre_of_buoyancy
+                .iter()
+                .all(|r| r.abs() <= ROUNDING * size)
+            && of_body.into_iter().chain(of_parts).all(is_diagonal)
+    }
+}
+
+/// Entries off the diagonal, relative to the diagonal, that count as zero.
+const ROUNDING: f64 = 1e-12;
+
+fn is_diagonal<const N: usize>(m: &[[f64; N]; N]) -> bool {
+    (0..N).all(|i| {
+        (0..N)
+            .all(|j| i == j || m[i][j] * m[i][j] <= ROUNDING * ROUNDING * (m[i][i] * m[j][j]).abs())
+    })
+}
+
+/// The diagonal of a tensor that has nothing else.
+#[derive(Debug, Clone)]
+pub(crate) struct Diagonal<R, const N: usize>([R; N]);
+
+impl<R: Real, const N: usize> Diagonal<R, N> {
+    fn new(like: R, m: &[[f64; N]; N]) -> Self {
+        Self(lift(like, &std::array::from_fn(|i| m[i][i])))
+    }
+
+    #[inline(always)]
+    fn scaled(&self, a: &[R; N]) -> [R; N] {
+        each(
+            a[0],
+            #[inline(always)]
+            |i| self.0[i] * a[i],
+        )
+    }
+}
+
+impl<R: Real> Tensor<R> for Diagonal<R, 6> {
+    #[inline(always)]
+    fn times(&self, a: &Vec6<R>) -> Vec6<R> {
+        self.scaled(a)
+    }
+}
+
+impl<R: Real> Block<R> for Diagonal<R, 3> {
+    #[inline(always)]
+    fn times(&self, a: Vec3<R>) -> Vec3<R> {
+        self.scaled(&a)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rounding_off_the_diagonal_is_none() {
+        assert!(is_diagonal(&[[1.0, 1e-13], [1e-13, 2.0]]));
+        assert!(!is_diagonal(&[[1.0, 1e-11], [1e-11, 2.0]]));
+        assert!(!is_diagonal(&[[1.0, 1e-13], [1e-13, 0.0]]));
+        assert!(is_diagonal(&[[0.0; 6]; 6]));
+    }
+}
