@@ -87,7 +87,10 @@ pub(crate) fn crowd(options: &Crowd, bars: &Bars) -> Result<()> {
 /// One step of all bodies, shared among the threads.
 fn step(stepper: &Stepper, batch: &mut Batch, dt: f64) -> Result<(), BatchError> {
     let packs = batch.packs_mut();
-    let share = packs.len().div_ceil(4 * rayon::current_num_threads()).max(1);
+    let share = packs
+        .len()
+        .div_ceil(4 * rayon::current_num_threads())
+        .max(1);
     packs
         .par_chunks_mut(share)
         .try_for_each(|share| stepper.step_packs(share, dt))

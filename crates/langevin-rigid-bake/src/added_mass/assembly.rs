@@ -196,6 +196,7 @@ impl<'a> Rows<'a> {
 mod tests {
     use super::*;
     use crate::added_mass::near;
+    use crate::added_mass::operator::Operator;
 
     /// A cube of side 1 with each face in 2 x 2 cells.
     fn cube() -> Panels {

@@ -11,6 +11,8 @@ use crate::mesh::vector::{dot, sub};
 
 /// Longest edge wanted, in lengths sqrt(area / target triangles).
 const LONGEST: f64 = 2.2;
+/// A mesh is not bisected into more triangles than this.
+const MOST_BISECTED: usize = 20_000;
 /// A triangle this many times longer than sqrt(area / triangles) is bisected in fine meshes too.
 const OVERLONG: f64 = 5.1;
 
@@ -36,7 +38,7 @@ impl Discretized {
         if !mesh.is_smooth() {
             let longest = longest_wanted(frame.area, triangles.len(), options.target_triangles);
             // The layer comes on top.
-            let limit = options.max_triangles / 2;
+            let limit = (options.max_triangles / 2).min(MOST_BISECTED);
             let refined = bisect(&mut vertices, &mut triangles, longest, limit);
             stopped = (!refined.complete).then_some(longest);
             inserted = layer::insert(&mut vertices, &mut triangles);

@@ -2,14 +2,16 @@
 
 use super::AddedMassError;
 use super::discretize::Discretized;
+use super::hierarchical::{Hierarchical, Subspace, combined};
 use super::layer;
 use super::matrix::{BLOCK, Matrix, Six};
 use super::near::{self, NearPairs, Thickness};
+use super::operator::{Operator, SparseRow};
 use super::panels::{Panels, Vec3};
 use super::precondition::Preconditioner;
 use super::report::Cancel;
 use super::solver::{Solution, solve};
-use super::sums::single_layer_energy;
+use super::sums::{RowSums, single_layer_energy};
 use super::{assembly, load};
 use crate::progress::Progress;
 
@@ -30,6 +32,15 @@ impl Flow {
         body: &Discretized,
         progress: &dyn Progress,
     ) -> Result<Flow, AddedMassError> {
+        let hierarchical = body.vertices.len() >= HIERARCHICAL;
+        Self::solve_as(hierarchical, body, progress)
+    }
+
+    fn solve_as(
+        hierarchical: bool,
+        body: &Discretized,
+        progress: &dyn Progress,
+    ) -> Result<Flow, AddedMassError> {
         let panels = Panels::new(&body.vertices, &body.triangles);
         let cancel = Cancel::new(progress, "near pairs", 1);
         cancel.check()?;
@@ -37,13 +48,12 @@ impl Flow {
         let thickness = near::thickness(&panels.panels, &pairs);
         let mut sums = near::integrate(&panels, &mut pairs, thickness.sheet);
         cancel.check()?;
-        let cancel = Cancel::new(progress, "matrix", panels.vertices.len().div_ceil(BLOCK));
-        let w = assembly::assemble(&panels, &pairs, &mut sums, &cancel)?;
-        let loads = load::loads(&panels, &sums, &w);
+        let w = Form::new(hierarchical, &panels, &pairs, &mut sums, progress)?;
+        let loads = load::loads(&panels, &sums, w.operator());
         let single_layer = single_layer_energy(&panels.panels, &sums);
         let zero = vec![[0.0; 6]; loads.len()];
         let system = System {
-            w: &w,
+            w: w.operator(),
             loads: &loads,
             vertices: &panels.vertices,
             thickness,
@@ -53,7 +63,7 @@ impl Flow {
         let mut tensor = layered;
         if !body.inserted.is_empty() {
             let cancel = Cancel::new(progress, "edges", 1);
-            let energy = system.nested_energy(body, &panels, &solution.x, &cancel)?;
+            let energy = nested_energy(&w, &system, body, &panels, &solution.x, &cancel)?;
             let q = layer::shrinkage(&panels, &pairs);
             tensor = extrapolated(&layered, &plus(&single_layer, &energy), q);
         }
@@ -69,9 +79,55 @@ impl Flow {
     }
 }
 
+/// Vertices from which W is kept as clusters of panels and not as a matrix.
+const HIERARCHICAL: usize = 8000;
+
+/// W, as its size asks for.
+enum Form<'a> {
+    Dense(Matrix),
+    Hierarchical(Box<Hierarchical<'a>>),
+}
+
+impl<'a> Form<'a> {
+    /// Also adds the far pairs to the sums, which hold the near ones.
+    fn new(
+        hierarchical: bool,
+        panels: &'a Panels,
+        pairs: &'a NearPairs,
+        sums: &mut [RowSums],
+        progress: &dyn Progress,
+    ) -> Result<Form<'a>, AddedMassError> {
+        if !hierarchical {
+            let vertices = panels.vertices.len();
+            let cancel = Cancel::new(progress, "matrix", vertices.div_ceil(BLOCK));
+            return Ok(Form::Dense(assembly::assemble(
+                panels, pairs, sums, &cancel,
+            )?));
+        }
+        let cancel = Cancel::new(progress, "clusters", 1);
+        let w = Hierarchical::new(panels, pairs, sums, &cancel)?;
+        Ok(Form::Hierarchical(Box::new(w)))
+    }
+
+    fn operator(&self) -> &dyn Operator {
+        match self {
+            Form::Dense(matrix) => matrix,
+            Form::Hierarchical(w) => w.as_ref(),
+        }
+    }
+
+    /// T^t W T, column j of T given by its nonzero entries `members[j]`.
+    fn restricted<'b>(&'b self, members: &'b [SparseRow]) -> Box<dyn Operator + 'b> {
+        match self {
+            Form::Dense(matrix) => Box::new(matrix.restricted(members)),
+            Form::Hierarchical(whole) => Box::new(Subspace { whole, members }),
+        }
+    }
+}
+
 /// W phi = -f.
 struct System<'a> {
-    w: &'a Matrix,
+    w: &'a dyn Operator,
     loads: &'a [Six],
     vertices: &'a [Vec3],
     thickness: Thickness,
@@ -86,29 +142,30 @@ impl System<'_> {
             })?;
         solve(self.w, self.loads, start, &preconditioner, cancel)
     }
+}
 
-    /// f^t W^-1 f in the space without the edge layer, a subspace: it takes no new integrals.
-    fn nested_energy(
-        &self,
-        body: &Discretized,
-        panels: &Panels,
-        x: &[Six],
-        cancel: &Cancel,
-    ) -> Result<[Six; 6], AddedMassError> {
-        let members = nested_members(body, panels);
-        let kept: Vec<usize> = members.iter().map(|m| m[0].0 as usize).collect();
-        let loads: Vec<Six> = members.iter().map(|m| combined(m, self.loads)).collect();
-        let vertices: Vec<Vec3> = kept.iter().map(|&v| self.vertices[v]).collect();
-        let w = self.w.restricted(&members);
-        let system = System {
-            w: &w,
-            loads: &loads,
-            vertices: &vertices,
-            ..*self
-        };
-        let solution = system.solve(kept.iter().map(|&v| x[v]).collect(), cancel)?;
-        Ok(solution.energy(&loads))
-    }
+/// f^t W^-1 f in the space without the edge layer, a subspace: it takes no new integrals.
+fn nested_energy(
+    w: &Form,
+    layered: &System,
+    body: &Discretized,
+    panels: &Panels,
+    x: &[Six],
+    cancel: &Cancel,
+) -> Result<[Six; 6], AddedMassError> {
+    let members = nested_members(body, panels);
+    let kept: Vec<usize> = members.iter().map(|m| m[0].0 as usize).collect();
+    let loads: Vec<Six> = members.iter().map(|m| combined(m, layered.loads)).collect();
+    let vertices: Vec<Vec3> = kept.iter().map(|&v| layered.vertices[v]).collect();
+    let w = w.restricted(&members);
+    let system = System {
+        w: w.as_ref(),
+        loads: &loads,
+        vertices: &vertices,
+        ..*layered
+    };
+    let solution = system.solve(kept.iter().map(|&v| x[v]).collect(), cancel)?;
+    Ok(solution.energy(&loads))
 }
 
 /// For each vertex that was there before the layer, in the order of the panels: itself, then the
@@ -135,15 +192,6 @@ fn nested_members(body: &Discretized, panels: &Panels) -> Vec<Vec<(u32, f64)>> {
     members
 }
 
-fn combined(members: &[(u32, f64)], values: &[Six]) -> Six {
-    std::array::from_fn(|c| {
-        members
-            .iter()
-            .map(|&(v, w)| w * values[v as usize][c])
-            .sum()
-    })
-}
-
 /// The limit of the sequence whose defect shrinks by `q` from `before` to `after`.
 fn extrapolated(after: &[Six; 6], before: &[Six; 6], q: f64) -> [Six; 6] {
     let limit = |a: f64, b: f64| a + (a - b) * q / (1.0 - q);
@@ -152,4 +200,53 @@ fn extrapolated(after: &[Six; 6], before: &[Six; 6], q: f64) -> [Six; 6] {
 
 fn plus(a: &[Six; 6], b: &[Six; 6]) -> [Six; 6] {
     std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::added_mass::Options;
+    use crate::shapes::Shape;
+
+    fn tensor(hierarchical: bool, shape: &Shape, triangles: usize) -> [Six; 6] {
+        let mesh = shape.mesh(triangles).unwrap();
+        let body = Discretized::new(&mesh, &Options::default());
+        let flow = Flow::solve_as(hierarchical, &body, &()).unwrap();
+        flow.tensor
+    }
+
+    #[test]
+    fn clusters_give_the_tensor_of_the_matrix() {
+        let smooth = Shape::Ellipsoid {
+            semi_axes: [0.01, 0.02, 0.04],
+        };
+        let edged = Shape::Box { size: [0.1; 3] };
+        let thin = Shape::Box {
+            size: [0.1, 0.1, 1e-3],
+        };
+        for (shape, triangles) in [(smooth, 5120), (edged, 3000), (thin, 3000)] {
+            let dense = tensor(false, &shape, triangles);
+            let clusters = tensor(true, &shape, triangles);
+            for block in [0, 3] {
+                let largest = (block..block + 3).map(|i| dense[i][i]).fold(0.0, f64::max);
+                for i in block..block + 3 {
+                    for j in block..block + 3 {
+                        let error = (clusters[i][j] - dense[i][j]).abs() / largest;
+                        assert!(error < 1e-5, "{shape:?}, {i} {j}: {error:e}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn threads_do_not_change_a_bit() {
+        let shape = Shape::Box { size: [0.1; 3] };
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            let run = || tensor(true, &shape, 2000);
+            pool.build().unwrap().install(run)
+        };
+        assert_eq!(on(1), on(3));
+    }
 }

@@ -1,6 +1,7 @@
 //! Right-hand sides of the six unit motions.
 
-use super::matrix::{Matrix, Six};
+use super::matrix::Six;
+use super::operator::Operator;
 use super::panels::{Panel, Panels, Vec3};
 use super::sums::RowSums;
 use crate::mesh::vector::{cross, dot};
@@ -11,7 +12,7 @@ const FOUR_PI: f64 = 4.0 * std::f64::consts::PI;
 ///
 /// For a translation it is the normal's load less W x, since W x_i = (1/2 - K') n_i exactly. For a
 /// rotation the part of K' beyond the constants is the circulation of a vector potential.
-pub(super) fn loads(panels: &Panels, sums: &[RowSums], w: &Matrix) -> Vec<Six> {
+pub(super) fn loads(panels: &Panels, sums: &[RowSums], w: &dyn Operator) -> Vec<Six> {
     let position = |v: &Vec3| [v[0], v[1], v[2], 0.0, 0.0, 0.0];
     let mut f: Vec<Six> = w
         .product(&panels.vertices.iter().map(position).collect::<Vec<Six>>())

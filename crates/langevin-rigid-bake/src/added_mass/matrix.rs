@@ -4,6 +4,8 @@ use rayon::prelude::*;
 use wide::bytemuck::cast_slice;
 use wide::f64x4;
 
+use super::operator::{Operator, SparseRow};
+
 /// Columns per block: a block is the unit of parallel work.
 pub(super) const BLOCK: usize = 64;
 /// Lanes of four per row of a block.
@@ -28,33 +30,9 @@ impl Matrix {
         Matrix { n, blocks }
     }
 
-    /// Bytes a matrix of order n takes.
-    pub(super) fn bytes(n: usize) -> usize {
-        n.div_ceil(BLOCK) * BLOCK * n * size_of::<f64>()
-    }
-
     pub(super) fn get(&self, row: usize, column: usize) -> f64 {
         let block: &[f64] = cast_slice(&self.blocks[column / BLOCK]);
         block[row * BLOCK + column % BLOCK]
-    }
-
-    pub(super) fn diagonal(&self) -> Vec<f64> {
-        (0..self.n).map(|i| self.get(i, i)).collect()
-    }
-
-    /// W x for six vectors at once; every entry is summed in the order of the rows.
-    pub(super) fn product(&self, x: &[Six]) -> Vec<Six> {
-        let spread: Vec<[f64x4; 6]> = x.iter().map(|v| v.map(f64x4::splat)).collect();
-        let blocks: Vec<[[f64x4; 6]; GROUPS]> = self
-            .blocks
-            .par_iter()
-            .map(|block| block_product(block, &spread))
-            .collect();
-        let lanes = blocks.iter().flatten().flat_map(|group| {
-            let columns = group.map(f64x4::to_array);
-            [0, 1, 2, 3].map(|lane| columns.map(|c| c[lane]))
-        });
-        lanes.take(self.n).collect()
     }
 
     /// The combination sum w_i W(i, :) of rows, as a full row.
@@ -98,6 +76,45 @@ impl Matrix {
             }
         }
         block
+    }
+}
+
+impl Operator for Matrix {
+    /// Every entry is summed in the order of the rows.
+    fn product(&self, x: &[Six]) -> Vec<Six> {
+        let spread: Vec<[f64x4; 6]> = x.iter().map(|v| v.map(f64x4::splat)).collect();
+        let blocks: Vec<[[f64x4; 6]; GROUPS]> = self
+            .blocks
+            .par_iter()
+            .map(|block| block_product(block, &spread))
+            .collect();
+        let lanes = blocks.iter().flatten().flat_map(|group| {
+            let columns = group.map(f64x4::to_array);
+            [0, 1, 2, 3].map(|lane| columns.map(|c| c[lane]))
+        });
+        lanes.take(self.n).collect()
+    }
+
+    fn diagonal(&self) -> Vec<f64> {
+        (0..self.n).map(|i| self.get(i, i)).collect()
+    }
+
+    fn block(&self, rows: &[usize]) -> Vec<f64> {
+        let entries = rows
+            .iter()
+            .flat_map(|&row| rows.iter().map(move |&column| (row, column)));
+        entries
+            .map(|(row, column)| self.get(row.max(column), row.min(column)))
+            .collect()
+    }
+
+    fn galerkin(&self, members: &[SparseRow]) -> Vec<f64> {
+        let (m, small) = (members.len(), self.restricted(members));
+        (0..m * m).map(|k| small.get(k / m, k % m)).collect()
+    }
+
+    fn most_coarse(&self) -> usize {
+        400
     }
 }
 

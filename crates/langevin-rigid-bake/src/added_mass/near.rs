@@ -28,10 +28,11 @@ impl NearPairs {
     /// Finds the pairs; a row depends on that row alone, and (a, b) is there if (b, a) is.
     pub(super) fn find(panels: &[Panel]) -> NearPairs {
         let groups: Vec<Group> = panels.chunks(GROUP).map(Group::new).collect();
+        let runs: Vec<Group> = panels.chunks(GROUP * GROUP).map(Group::new).collect();
         let rows: Vec<Vec<u32>> = panels
             .par_iter()
             .with_min_len(64)
-            .map(|a| near_row(a, panels, &groups))
+            .map(|a| near_row(a, panels, &groups, &runs))
             .collect();
         let mut start = Vec::with_capacity(rows.len() + 1);
         start.push(0);
@@ -89,9 +90,18 @@ impl Group {
     }
 }
 
-fn near_row(a: &Panel, panels: &[Panel], groups: &[Group]) -> Vec<u32> {
+fn near_row(a: &Panel, panels: &[Panel], groups: &[Group], runs: &[Group]) -> Vec<u32> {
     let mut row = Vec::with_capacity(96);
-    for (g, group) in groups.iter().enumerate() {
+    let runs = groups.chunks(GROUP).zip(runs).enumerate();
+    let close = runs
+        .filter(|(_, (_, run))| run.may_be_near(a))
+        .flat_map(|(r, (groups, _))| {
+            groups
+                .iter()
+                .enumerate()
+                .map(move |(g, group)| (r * GROUP + g, group))
+        });
+    for (g, group) in close {
         if !group.may_be_near(a) {
             continue;
         }

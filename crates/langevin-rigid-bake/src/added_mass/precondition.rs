@@ -6,17 +6,19 @@
 
 use rayon::prelude::*;
 
-use super::matrix::{Matrix, Six};
+use super::matrix::Six;
+use super::operator::{Operator, SparseRow};
 use super::panels::Vec3;
-use crate::mesh::vector::{dot, sub};
+use crate::mesh::vector::{bounding_box, dot, sub};
 
 /// Neighbours in the factorized sparse approximate inverse.
 const NEIGHBOURS: usize = 24;
 /// Order from which fewer products with W pay for the better preconditioner on any body.
 const LARGE: usize = 3000;
-/// Vertices per coarse function, and the most coarse functions.
+/// Vertices per coarse function.
 const COARSENING: usize = 16;
-const MAX_COARSE: usize = 400;
+/// Vertices that a search for neighbours passes over together.
+const GROUP: usize = 32;
 
 /// An approximate inverse of W.
 pub(super) enum Preconditioner {
@@ -31,7 +33,7 @@ pub(super) enum Preconditioner {
 
 impl Preconditioner {
     /// The one for a body with these vertices; `None` where W is not positive.
-    pub(super) fn new(w: &Matrix, vertices: &[Vec3], sheet: bool) -> Option<Preconditioner> {
+    pub(super) fn new(w: &dyn Operator, vertices: &[Vec3], sheet: bool) -> Option<Preconditioner> {
         let diagonal = w.diagonal();
         if !diagonal.iter().all(|&d| d > 0.0) {
             return None;
@@ -64,8 +66,6 @@ impl Preconditioner {
     }
 }
 
-type SparseRow = Vec<(u32, f64)>;
-
 /// Lower triangular G with G^t G close to the inverse of W.
 pub(super) struct SparseFactor {
     rows: Vec<SparseRow>,
@@ -73,11 +73,12 @@ pub(super) struct SparseFactor {
 }
 
 impl SparseFactor {
-    fn new(w: &Matrix, vertices: &[Vec3]) -> Option<SparseFactor> {
+    fn new(w: &dyn Operator, vertices: &[Vec3]) -> Option<SparseFactor> {
+        let groups: Vec<Group> = vertices.chunks(GROUP).map(Group::new).collect();
         let rows: Vec<SparseRow> = (0..vertices.len())
             .into_par_iter()
             .with_min_len(16)
-            .map(|i| factor_row(w, vertices, i))
+            .map(|i| factor_row(w, vertices, &groups, i))
             .collect::<Option<_>>()?;
         let columns = transposed(&rows, vertices.len());
         Some(SparseFactor { rows, columns })
@@ -89,20 +90,17 @@ impl SparseFactor {
 }
 
 /// Row i of G: the last column of the inverse of W over i and its earlier neighbours, normalized.
-fn factor_row(w: &Matrix, vertices: &[Vec3], i: usize) -> Option<SparseRow> {
-    let mut members = nearest(vertices, i, NEIGHBOURS);
+fn factor_row(
+    w: &dyn Operator,
+    vertices: &[Vec3],
+    groups: &[Group],
+    i: usize,
+) -> Option<SparseRow> {
+    let mut members = nearest(vertices, groups, i, NEIGHBOURS);
     members.retain(|&j| j <= i);
     members.sort_unstable();
     let m = members.len();
-    let mut a: Vec<f64> = Vec::with_capacity(m * m);
-    for &row in &members {
-        a.extend(
-            members
-                .iter()
-                .map(|&column| w.get(row.max(column), row.min(column))),
-        );
-    }
-    let factor = Cholesky::new(a, m)?;
+    let factor = Cholesky::new(w.block(&members), m)?;
     let mut y = vec![0.0; m];
     y[m - 1] = 1.0;
     factor.solve(&mut y);
@@ -116,31 +114,53 @@ fn factor_row(w: &Matrix, vertices: &[Vec3], i: usize) -> Option<SparseRow> {
     )
 }
 
-/// The `count` vertices nearest to vertex `i`, itself among them; searched outwards along the
-/// curve on which neighbours in memory are neighbours in space.
-fn nearest(vertices: &[Vec3], i: usize, count: usize) -> Vec<usize> {
-    let distance2 = |j: usize| {
-        let d = sub(vertices[j], vertices[i]);
-        dot(d, d)
-    };
-    let mut found: Vec<(f64, usize)> = vec![(0.0, i)];
-    let mut offer = |j: usize| {
-        let d2 = distance2(j);
-        if found.len() == count {
-            if found[count - 1].0 <= d2 {
-                return;
+/// A run of vertices, for passing over many at once.
+struct Group {
+    bounds: [Vec3; 2],
+}
+
+impl Group {
+    fn new(vertices: &[Vec3]) -> Group {
+        Group {
+            bounds: bounding_box(vertices),
+        }
+    }
+
+    fn distance2(&self, v: Vec3) -> f64 {
+        let [low, high] = self.bounds;
+        let outside: Vec3 = std::array::from_fn(|k| (low[k] - v[k]).max(v[k] - high[k]).max(0.0));
+        dot(outside, outside)
+    }
+}
+
+/// The `count` vertices nearest to vertex `i`, itself among them; the earlier one of two equally near.
+/// Searched outwards along the curve on which neighbours in memory are neighbours in space.
+fn nearest(vertices: &[Vec3], groups: &[Group], i: usize, count: usize) -> Vec<usize> {
+    let mut found: Vec<(f64, usize)> = Vec::with_capacity(count + 1);
+    let mut offer = |group: usize| {
+        let worst = |found: &[(f64, usize)]| found.get(count - 1).map_or(f64::INFINITY, |f| f.0);
+        if groups[group].distance2(vertices[i]) > worst(&found) {
+            return;
+        }
+        let first = group * GROUP;
+        for (j, v) in vertices[first..].iter().enumerate().take(GROUP) {
+            let d = sub(*v, vertices[i]);
+            let candidate = (dot(d, d), first + j);
+            if candidate.0 <= worst(&found) {
+                let place = found.partition_point(|other| other < &candidate);
+                found.insert(place, candidate);
+                found.truncate(count);
             }
-            found.pop();
         }
-        let place = found.partition_point(|&(other, _)| other <= d2);
-        found.insert(place, (d2, j));
     };
-    for step in 1..vertices.len() {
-        if i >= step {
-            offer(i - step);
+    let own = i / GROUP;
+    offer(own);
+    for step in 1..groups.len() {
+        if own >= step {
+            offer(own - step);
         }
-        if i + step < vertices.len() {
-            offer(i + step);
+        if own + step < groups.len() {
+            offer(own + step);
         }
     }
     found.into_iter().map(|(_, j)| j).collect()
@@ -179,8 +199,9 @@ pub(super) struct Coarse {
 }
 
 impl Coarse {
-    fn new(w: &Matrix, vertices: &[Vec3]) -> Option<Coarse> {
-        let seeds = spread_out(vertices, (vertices.len() / COARSENING).min(MAX_COARSE));
+    fn new(w: &dyn Operator, vertices: &[Vec3]) -> Option<Coarse> {
+        let most = w.most_coarse();
+        let seeds = spread_out(vertices, (vertices.len() / COARSENING).min(most));
         let interpolation: Vec<SparseRow> = vertices
             .par_iter()
             .with_min_len(64)
@@ -188,9 +209,9 @@ impl Coarse {
             .collect();
         let members = transposed(&interpolation, seeds.len());
         let m = seeds.len();
-        let small = w.restricted(&members);
+        let small = w.galerkin(&members);
         let mut a: Vec<f64> = (0..m * m)
-            .map(|k| 0.5 * (small.get(k / m, k % m) + small.get(k % m, k / m)))
+            .map(|k| 0.5 * (small[k] + small[k % m * m + k / m]))
             .collect();
         // Constants are among the coarse functions and have no energy: give them the mean one.
         let mean = (0..m).map(|i| a[i * m + i]).sum::<f64>() / (m * m) as f64;
@@ -322,7 +343,8 @@ mod tests {
     #[test]
     fn nearest_are_the_nearest() {
         let line: Vec<Vec3> = (0..50).map(|i| [f64::from(i * i), 0.0, 0.0]).collect();
-        let mut found = nearest(&line, 10, 5);
+        let groups: Vec<Group> = line.chunks(GROUP).map(Group::new).collect();
+        let mut found = nearest(&line, &groups, 10, 5);
         found.sort_unstable();
         assert_eq!(found, [8, 9, 10, 11, 12]);
     }

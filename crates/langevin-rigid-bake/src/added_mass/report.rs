@@ -133,20 +133,18 @@ pub enum AddedMassError {
     /// [`Progress::cancelled`] said so.
     #[error("the added mass was cancelled")]
     Cancelled,
-    /// The dense matrix would be too large.
+    /// More triangles than the options allow.
     #[error(
-        "{triangles} triangles (edge layer included) would take {:.1} GB, {limit} are allowed: \
-         simplify the mesh keeping its volume to 20 000 triangles, or raise `max_triangles` of the \
+        "{triangles} triangles (edge layer included) would take some {:.1} GB, {limit} are allowed: \
+         simplify the mesh to 20 000 triangles keeping its volume, or raise `max_triangles` of the \
          options in a program of your own",
-        *bytes as f64 / 1e9
+        8e-6 * *triangles as f64
     )]
     TooLarge {
         /// Triangles that would be solved on.
         triangles: usize,
         /// [`Options::max_triangles`](super::Options::max_triangles).
         limit: usize,
-        /// Memory that would take.
-        bytes: usize,
     },
     /// The matrix is not positive: the surface is not that of a body.
     #[error(
@@ -190,7 +188,11 @@ impl<'a> Cancel<'a> {
 
     pub(super) fn advance(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        self.progress
-            .report(self.stage, done as f64 / self.total.max(1) as f64);
+        self.report(done as f64 / self.total.max(1) as f64);
+    }
+
+    /// Says that this share of the stage is done.
+    pub(super) fn report(&self, share: f64) {
+        self.progress.report(self.stage, share);
     }
 }

@@ -1,7 +1,8 @@
 //! Preconditioned conjugate gradients for the six motions at once.
 
 use super::AddedMassError;
-use super::matrix::{Matrix, Six};
+use super::matrix::Six;
+use super::operator::Operator;
 use super::precondition::Preconditioner;
 use super::report::Cancel;
 
@@ -39,7 +40,7 @@ impl Solution {
 
 /// Solves from `start`; constants, which W maps to zero, are kept out of the residual.
 pub(super) fn solve(
-    w: &Matrix,
+    w: &dyn Operator,
     f: &[Six],
     start: Vec<Six>,
     preconditioner: &Preconditioner,
@@ -48,11 +49,14 @@ pub(super) fn solve(
     let scale = scales(f);
     let mut x = start;
     let mut residual = residual(w, f, &x);
+    let first = relative(&residual, &scale);
     let mut direction = vec![[0.0; 6]; f.len()];
     let mut previous = [f64::INFINITY; 6];
     let mut iterations = 0;
     while relative(&residual, &scale) > TOLERANCE && iterations < MAX_ITERATIONS {
         cancel.check()?;
+        let worst = relative(&residual, &scale);
+        cancel.report(libm::log(first / worst) / libm::log(first / TOLERANCE));
         let active: [bool; 6] = std::array::from_fn(|c| norm(&residual, c) > TOLERANCE * scale[c]);
         let z = preconditioner.apply(&residual);
         let rho = dots(&residual, &z);
@@ -98,7 +102,7 @@ fn steps(
     Ok(alpha)
 }
 
-fn residual(w: &Matrix, f: &[Six], x: &[Six]) -> Vec<Six> {
+fn residual(w: &dyn Operator, f: &[Six], x: &[Six]) -> Vec<Six> {
     let mut residual = f.to_vec();
     update(&mut residual, &w.product(x), |_, f, wx| f - wx);
     without_mean(&mut residual);
