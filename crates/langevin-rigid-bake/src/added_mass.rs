@@ -41,10 +41,12 @@ mod panels;
 mod precondition;
 mod refine;
 mod report;
+mod shape;
 mod solver;
 mod sums;
 
 pub use report::{AddedMassError, MeshQuality, Warning};
+pub use shape::ShapeError;
 
 use crate::mesh::TriMesh;
 use crate::progress::Progress;

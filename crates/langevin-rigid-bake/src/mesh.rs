@@ -8,12 +8,14 @@
 mod check;
 mod edges;
 mod error;
+mod proxy;
 mod sheet;
 pub(crate) mod vector;
 mod weld;
 
 pub use edges::{Edge, open_edge_count};
 pub use error::{EdgeSite, MeshError};
+pub use proxy::ProxyError;
 pub use weld::weld;
 
 use vector::{add, cross, det, dot, mat_vec, norm, scale, sub};

@@ -25,14 +25,39 @@ struct Report {
     reference: [f64; 3],
     added_mass: [[f64; 6]; 6],
     error_estimate: f64,
+    /// The simplified mesh, where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proxy: Option<Proxy>,
     warnings: Vec<String>,
     seconds: f64,
+}
+
+/// What stands for the mesh; its part of the error estimate is in that of the report too.
+#[derive(Serialize)]
+struct Proxy {
+    triangles: usize,
+    /// Largest distance of a vertex of the mesh (m).
+    deviation: f64,
+    error_estimate: f64,
 }
 
 pub(crate) fn added_mass(options: &AddedMass, bars: &Bars) -> Result<()> {
     let started = Instant::now();
     let mesh = read(options)?;
-    let result = solve(&mesh, &Options::default(), bars)?;
+    let (result, proxy) = match options.proxy {
+        Some(triangles) => {
+            let simplified = mesh.proxy(triangles as usize)?;
+            let result = solve(&simplified, &Options::default(), bars)?;
+            let error = result.shape_error(&mesh);
+            let proxy = Proxy {
+                triangles: simplified.triangles().len(),
+                deviation: error.deviation,
+                error_estimate: error.estimate,
+            };
+            (result, Some(proxy))
+        }
+        None => (solve(&mesh, &Options::default(), bars)?, None),
+    };
     let reference = match options.about {
         About::Com => result.reference,
         About::Origin => [0.0; 3],
@@ -51,7 +76,9 @@ pub(crate) fn added_mass(options: &AddedMass, bars: &Bars) -> Result<()> {
         fluid_density: options.fluid_density,
         reference,
         added_mass: tensor.map(|row| row.map(|a| options.fluid_density * a)),
-        error_estimate: result.error_estimate,
+        error_estimate: result.error_estimate
+            + proxy.as_ref().map_or(0.0, |proxy| proxy.error_estimate),
+        proxy,
         warnings,
         seconds: started.elapsed().as_secs_f64(),
     };
@@ -88,6 +115,18 @@ fn table(report: &Report) -> String {
         n => format!(" (solved on {n})"),
     };
     line("triangles", format!("{}{solved}", report.triangles));
+    if let Some(proxy) = &report.proxy {
+        let Proxy {
+            triangles,
+            deviation,
+            error_estimate,
+        } = proxy;
+        let cost = 100.0 * error_estimate;
+        line(
+            "proxy",
+            format!("{triangles} triangles, {deviation:.2e} m away, which may cost {cost:.2} %"),
+        );
+    }
     line("volume", format!("{:.6e} m^3", report.volume));
     line("centroid", point(report.centroid));
     line("fluid density", format!("{} kg/m^3", report.fluid_density));

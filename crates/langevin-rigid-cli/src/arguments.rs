@@ -209,6 +209,7 @@ Examples:
   langevin-rigid added-mass hull.stl --unit mm
   langevin-rigid added-mass leaf.obj --unit cm --thickness 0.0002 --fluid-density 1.2
   langevin-rigid added-mass hull.glb --about origin --format json
+  langevin-rigid added-mass scan.ply --proxy 5000
 
 The tensor is 6 x 6, linear part first, axes of the mesh, in SI (kg, kg m, kg m^2).
 Reads OBJ, STL, PLY, glTF and GLB.")]
@@ -221,6 +222,9 @@ pub(crate) struct AddedMass {
     /// Thicken an open sheet to this thickness (m).
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     pub(crate) thickness: Option<f64>,
+    /// Simplify to about N triangles first, keeping the volume, and say what that may cost.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..))]
+    pub(crate) proxy: Option<u32>,
     /// Density of the fluid (kg/m^3).
     #[arg(long, value_name = "RHO", default_value = "1000", value_parser = positive)]
     pub(crate) fluid_density: f64,

@@ -540,3 +540,37 @@ fn a_crowd_counts_its_frames() {
     assert!(report["median_frame_ms"].as_f64().unwrap() > 0.0);
     assert_eq!(place.run(&["crowd", &file, "--bodies", "0"]).code, 2);
 }
+
+#[test]
+fn a_proxy_is_simpler_and_says_what_it_may_cost() {
+    let place = Place::new();
+    let sphere = langevin_rigid_bake::shapes::Shape::Ellipsoid {
+        semi_axes: [0.1, 0.2, 0.3],
+    };
+    let mesh = sphere.mesh(5120).unwrap();
+    let mut obj = String::new();
+    for [x, y, z] in mesh.vertices() {
+        obj += &format!("v {x} {y} {z}\n");
+    }
+    for t in mesh.triangles() {
+        let [a, b, c] = t.map(|v| v + 1);
+        obj += &format!("f {a} {b} {c}\n");
+    }
+    let file = place.write("sphere.obj", &obj);
+    let run = |options: &[&str]| {
+        place
+            .run(&[&["added-mass", &file, "--format", "json"], options].concat())
+            .json()
+    };
+    let (full, proxy) = (run(&[]), run(&["--proxy", "800"]));
+    assert!(full.get("proxy").is_none());
+    assert!(proxy["proxy"]["triangles"].as_u64().unwrap() <= 800);
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    assert!((number(&proxy["volume"]) / number(&full["volume"]) - 1.0).abs() < 1e-12);
+    let entry = |report: &serde_json::Value| number(&report["added_mass"][0][0]);
+    let error = (entry(&proxy) / entry(&full) - 1.0).abs();
+    assert!(error < number(&proxy["error_estimate"]), "{error}");
+    let table = place.run(&["added-mass", &file, "--proxy", "800"]).out;
+    assert!(table.contains("which may cost"), "{table}");
+    assert_eq!(place.run(&["added-mass", &file, "--proxy", "3"]).code, 2);
+}

@@ -1,0 +1,87 @@
+//! A coarser mesh in place of a fine one.
+
+use super::{MeshError, TriMesh};
+use crate::mesh::vector::{add, bounding_box, scale, sub};
+
+/// Why there is no proxy.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ProxyError {
+    /// Fewer triangles than any body has.
+    #[error("a proxy of {0} triangles cannot enclose a volume; ask for 4 or more, better 1000")]
+    TooFew(usize),
+    /// The simplified surface is not that of a body.
+    #[error(
+        "simplified to {triangles} triangles the mesh is no body any more ({error}); ask for more"
+    )]
+    NoBody {
+        /// Triangles that it was simplified to.
+        triangles: usize,
+        /// What is wrong with it.
+        error: MeshError,
+    },
+}
+
+impl TriMesh {
+    /// The body in about `triangles` triangles, of the same volume to rounding.
+    ///
+    /// Edges collapse by quadric error (meshoptimizer by A. Kapoulkine): the vertices are some of those of
+    /// this mesh, scaled about their middle to restore the volume. A mesh with no more triangles is
+    /// returned as it is; one whose shape or topology needs more keeps more.
+    ///
+    /// ```
+    /// use langevin_rigid_bake::shapes::Shape;
+    /// let fine = Shape::Ellipsoid { semi_axes: [1.0, 2.0, 4.0] }.mesh(5120)?;
+    /// let proxy = fine.proxy(1000)?;
+    /// assert!(proxy.triangles().len() <= 1000);
+    /// assert!((proxy.volume() / fine.volume() - 1.0).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ProxyError`]: too few triangles are asked for, or the result is not the surface of a body.
+    pub fn proxy(&self, triangles: usize) -> Result<TriMesh, ProxyError> {
+        if triangles < 4 {
+            return Err(ProxyError::TooFew(triangles));
+        }
+        if self.triangles.len() <= triangles {
+            return Ok(self.clone());
+        }
+        let kept = collapsed(&self.vertices, &self.triangles, triangles);
+        let simplified = kept.len();
+        let body =
+            TriMesh::new(self.vertices.clone(), kept).map_err(|error| ProxyError::NoBody {
+                triangles: simplified,
+                error,
+            })?;
+        // About any point; a point inside moves the surface least.
+        let [low, high] = bounding_box(&body.vertices);
+        let centre = scale(0.5, add(low, high));
+        let factor = libm::cbrt(self.volume() / body.volume());
+        let restored = |&v: &[f64; 3]| add(centre, scale(factor, sub(v, centre)));
+        Ok(TriMesh {
+            vertices: body.vertices.iter().map(restored).collect(),
+            smooth: self.smooth,
+            ..body
+        })
+    }
+}
+
+/// Triangles over some of the vertices, about `wanted` of them.
+fn collapsed(vertices: &[[f64; 3]], triangles: &[[u32; 3]], wanted: usize) -> Vec<[u32; 3]> {
+    // Single precision has room for what is left after centring.
+    let [low, high] = bounding_box(vertices);
+    let size = (0..3).fold(f64::MIN_POSITIVE, |s, k| f64::max(s, high[k] - low[k]));
+    let positions: Vec<[f32; 3]> = vertices
+        .iter()
+        .map(|v| std::array::from_fn(|k| ((v[k] - low[k]) / size) as f32))
+        .collect();
+    let kept = meshopt::simplify_decoder(
+        triangles.as_flattened(),
+        &positions,
+        3 * wanted,
+        f32::MAX,
+        meshopt::SimplifyOptions::Regularize,
+        None,
+    );
+    kept.as_chunks().0.to_vec()
+}
