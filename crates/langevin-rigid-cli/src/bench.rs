@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use anyhow::{Result, anyhow, bail};
 use langevin_rigid::turbulence::Turbulence;
-use langevin_rigid::{Batch, Integrator, Model, NoiseStream, Precision};
+use langevin_rigid::{Batch, Integrator, Model, NoiseStream, Pack, Precision};
 use langevin_rigid_bake::added_mass;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::Shape;
@@ -23,9 +23,10 @@ const REPEATS: usize = 31;
 const FEW: usize = 5;
 /// Steps of one repetition.
 const STEPS: u32 = 2000;
-/// Bodies of a batch and its steps in one repetition.
+/// Bodies of a batch, those of the batch that all threads share, and body-steps of one repetition.
 const BODIES: u32 = 4096;
-const BATCH_STEPS: u32 = 50;
+const CROWD: u32 = 65_536;
+const BODY_STEPS: u32 = 262_144;
 /// Cells of the timed turbulence grid along each axis.
 const CELLS: usize = 64;
 
@@ -48,7 +49,7 @@ struct Report {
     /// `step_batch` and `step_separated_batch` in single precision.
     step_batch_f32: f64,
     step_separated_batch_f32: f64,
-    /// How many times faster all cores step a batch than one.
+    /// How many times faster all cores step a large batch than one.
     batch_scaling: f64,
     added_mass_1280_ms: f64,
     added_mass_5120_ms: f64,
@@ -60,18 +61,19 @@ struct Report {
 
 pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
     let threads = rayon::current_num_threads();
-    let on_all = step_batch::<f64>(Model::Consistent, threads, bars)?;
-    let on_one = step_batch::<f64>(Model::Consistent, 1, bars)?;
+    let on_one = step_batch::<f64>(Model::Consistent, BODIES, 1, bars)?;
+    let scaling = step_batch::<f64>(Model::Consistent, CROWD, 1, bars)?
+        / step_batch::<f64>(Model::Consistent, CROWD, threads, bars)?;
     let report = Report {
         version: env!("CARGO_PKG_VERSION"),
         threads,
         step: step(BODY, Model::Consistent, bars)?,
         step_batch: on_one,
         step_separated: step(BODY, Model::Separated, bars)?,
-        step_separated_batch: step_batch::<f64>(Model::Separated, 1, bars)?,
-        step_batch_f32: step_batch::<f32>(Model::Consistent, 1, bars)?,
-        step_separated_batch_f32: step_batch::<f32>(Model::Separated, 1, bars)?,
-        batch_scaling: on_one / on_all,
+        step_separated_batch: step_batch::<f64>(Model::Separated, BODIES, 1, bars)?,
+        step_batch_f32: step_batch::<f32>(Model::Consistent, BODIES, 1, bars)?,
+        step_separated_batch_f32: step_batch::<f32>(Model::Separated, BODIES, 1, bars)?,
+        batch_scaling: scaling,
         table2: scene::BUILT_IN
             .iter()
             .filter(|row| row.name.starts_with(TABLE_2))
@@ -142,32 +144,33 @@ fn step(name: &'static str, model: Model, bars: &Bars) -> Result<f64> {
     Ok(1e9 * seconds / f64::from(STEPS))
 }
 
-/// Nanoseconds a step of each of [`BODIES`] bodies, shared among `threads`.
-fn step_batch<P: Precision>(model: Model, threads: usize, bars: &Bars) -> Result<f64> {
+/// Nanoseconds a step of each of so many bodies, shared among `threads`.
+fn step_batch<P: Precision>(model: Model, bodies: u32, threads: usize, bars: &Bars) -> Result<f64> {
     let mut scene = scene::find(BODY)?;
     scene.settings.model = model;
     scene.settings.integrator = Integrator::default();
     let baked = cache::bake(&scene, bars)?;
     let stepper = baking::stepper(&scene, &baked.bake)?;
-    let seconds = median(REPEATS, "batch", bars, |repeat| {
-        let mut batch = Batch::<P>::new(repeat as u64);
-        for _ in 0..BODIES {
-            batch.push(&scene.release);
-        }
-        let packs = batch.packs_mut();
-        let share = packs.len().div_ceil(threads);
-        for _ in 0..BATCH_STEPS {
-            if threads == 1 {
-                stepper.step_packs(packs, scene.time_step)?;
-            } else {
-                packs
-                    .par_chunks_mut(share)
-                    .try_for_each(|share| stepper.step_packs(share, scene.time_step))?;
-            }
+    let steps = BODY_STEPS / bodies;
+    let mut batch = Batch::<P>::new(0);
+    for _ in 0..bodies {
+        batch.push(&scene.release);
+    }
+    let packs = batch.packs_mut();
+    let share = packs.len().div_ceil(threads);
+    let seconds = median(REPEATS, "batch", bars, |_| {
+        // Bodies do not meet: a thread takes its share through all steps.
+        let through = |share: &mut [Pack<P>]| {
+            (0..steps).try_for_each(|_| stepper.step_packs(share, scene.time_step))
+        };
+        if threads == 1 {
+            through(packs)?;
+        } else {
+            packs.par_chunks_mut(share).try_for_each(through)?;
         }
         Ok(())
     })?;
-    Ok(1e9 * seconds / f64::from(BATCH_STEPS * BODIES))
+    Ok(1e9 * seconds / f64::from(steps * bodies))
 }
 
 fn added_mass_ms(triangles: usize, bars: &Bars) -> Result<f64> {

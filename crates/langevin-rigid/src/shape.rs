@@ -96,8 +96,11 @@ impl Shape for Symmetric {
 }
 
 impl Symmetric {
-    /// Whether the body is one, to within what rounding leaves of a zero.
+    /// Whether the body is one, but for what is far below the accuracy of its tensors: the mesh of a
+    /// symmetric body seldom is symmetric to the bit.
     pub(crate) fn includes(body: &Body, fluid_density: f64) -> bool {
+        let total = body.total_mass(fluid_density);
+        let added = body.added_mass.map(|row| row.map(|a| fluid_density * a));
         let Separation {
             drag_area,
             extents,
@@ -114,24 +117,31 @@ impl Symmetric {
             ]
         });
         let size = body.half_extents[0];
-        is_diagonal(&body.total_mass(fluid_density))
-            && is_diagonal(&body.added_mass)
-            && body
-                .centre_of_buoyancy
-                .iter()
-                .all(|r| r.abs() <= ROUNDING * size)
+        let centred = body.centre_of_buoyancy;
+        couples_little(&total, &total)
+            && couples_little(&added, &total)
+            && centred.iter().all(|r| r.abs() <= NEGLIGIBLE * size)
             && of_body.into_iter().chain(of_parts).all(is_diagonal)
     }
 }
 
-/// Entries off the diagonal, relative to the diagonal, that count as zero.
-const ROUNDING: f64 = 1e-12;
+/// What a coupling may be beside the entries that it couples.
+const NEGLIGIBLE: f64 = 1e-6;
 
-fn is_diagonal<const N: usize>(m: &[[f64; N]; N]) -> bool {
-    (0..N).all(|i| {
-        (0..N)
-            .all(|j| i == j || m[i][j] * m[i][j] <= ROUNDING * ROUNDING * (m[i][i] * m[j][j]).abs())
-    })
+/// Whether the entries of `m` off the diagonal are negligible beside the inertias of the motions that
+/// they couple.
+fn couples_little(m: &Mat6, total: &Mat6) -> bool {
+    let little = |i: usize, j: usize| {
+        let beside = NEGLIGIBLE * NEGLIGIBLE * total[i][i] * total[j][j];
+        i == j || m[i][j] * m[i][j] <= beside
+    };
+    (0..6).all(|i| (0..6).all(|j| little(i, j)))
+}
+
+/// The same of a tensor beside its own largest entry.
+fn is_diagonal(m: &Mat3) -> bool {
+    let largest = (0..3).fold(0.0f64, |l, i| l.max(m[i][i].abs()));
+    (0..3).all(|i| (0..3).all(|j| i == j || m[i][j].abs() <= NEGLIGIBLE * largest))
 }
 
 /// The diagonal of a tensor that has nothing else.
@@ -172,10 +182,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_rounding_off_the_diagonal_is_none() {
-        assert!(is_diagonal(&[[1.0, 1e-13], [1e-13, 2.0]]));
-        assert!(!is_diagonal(&[[1.0, 1e-11], [1e-11, 2.0]]));
-        assert!(!is_diagonal(&[[1.0, 1e-13], [1e-13, 0.0]]));
-        assert!(is_diagonal(&[[0.0; 6]; 6]));
+    fn a_negligible_coupling_is_none() {
+        let mut total = [[0.0; 6]; 6];
+        for i in 0..6 {
+            total[i][i] = if i < 3 { 4.0 } else { 1.0 };
+        }
+        let mut added = [[0.0; 6]; 6];
+        added[0][5] = 1.9e-6;
+        assert!(couples_little(&added, &total));
+        added[0][5] = 2.1e-6;
+        assert!(!couples_little(&added, &total));
+        assert!(is_diagonal(&[[1.0, 1e-7, 0.0], [1e-7, 0.0, 0.0], [0.0; 3]]));
+        assert!(!is_diagonal(&[
+            [1.0, 1e-5, 0.0],
+            [1e-5, 1.0, 0.0],
+            [0.0; 3]
+        ]));
+        assert!(is_diagonal(&[[0.0; 3]; 3]));
     }
 }

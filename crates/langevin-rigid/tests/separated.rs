@@ -105,7 +105,7 @@ fn a_body_without_extents_is_refused() {
 fn a_symmetric_body_moves_like_one_that_hardly_is_not() {
     let symmetric = ellipsoid([0.04, 0.02, 0.01], 1200.0);
     let mut bent = symmetric.clone();
-    bent.inertia[0][1] = 1e-9 * bent.inertia[1][1];
+    bent.inertia[0][1] = 2e-6 * bent.inertia[1][1];
     bent.inertia[1][0] = bent.inertia[0][1];
     for model in [Model::Separated, Model::Kirchhoff] {
         let settings = Settings {
@@ -127,7 +127,7 @@ fn a_symmetric_body_moves_like_one_that_hardly_is_not() {
         };
         let (a, b) = (run(&symmetric), run(&bent));
         assert!(a != b, "both took the same path through the code");
-        assert!(distance(a.position, b.position) < 1e-8, "{model}");
-        assert!(distance(a.angular_velocity, b.angular_velocity) < 1e-6);
+        assert!(distance(a.position, b.position) < 1e-6, "{model}");
+        assert!(distance(a.angular_velocity, b.angular_velocity) < 1e-4);
     }
 }
