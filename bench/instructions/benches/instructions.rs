@@ -93,8 +93,8 @@ fn step(stepper: Stepper) -> State {
 
 // 100 steps of each of 64 bodies, in the lanes that valgrind knows: four of doubles.
 #[library_benchmark]
-#[bench::consistent(args = (Model::Consistent), setup = many, config = about(5_337_888))]
-#[bench::separated(args = (Model::Separated), setup = many, config = about(8_889_495))]
+#[bench::consistent(args = (Model::Consistent), setup = many, config = about(5_338_855))]
+#[bench::separated(args = (Model::Separated), setup = many, config = about(8_888_194))]
 fn step_batch((stepper, mut batch): (Stepper, Batch)) -> Batch {
     for _ in 0..STEPS {
         stepper.step_batch(black_box(&mut batch), 5e-3).unwrap();
@@ -104,7 +104,7 @@ fn step_batch((stepper, mut batch): (Stepper, Batch)) -> Batch {
 
 // Added mass at 320 triangles, of which the panel integrals are nine tenths.
 #[library_benchmark]
-#[bench::ellipsoid(args = (), setup = mesh, config = about(99_959_846))]
+#[bench::ellipsoid(args = (), setup = mesh, config = about(59_775_289))]
 fn panels(mesh: TriMesh) -> f64 {
     let options = Options {
         target_triangles: 320,

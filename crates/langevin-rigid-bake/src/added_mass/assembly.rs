@@ -137,11 +137,7 @@ impl<'a> Rows<'a> {
             let target = &self.targets[place];
             match &mut self.far[place] {
                 Some(sums) => target.potentials_and_sums(sources, row, sums),
-                None => {
-                    for (p, b) in row.iter_mut().zip(sources) {
-                        *p = target.potential(b);
-                    }
-                }
+                None => target.potentials(sources, row),
             }
             let (columns, values) = self.pairs.row(self.touching[place]);
             let entries: &mut [f64] = cast_slice_mut(row);

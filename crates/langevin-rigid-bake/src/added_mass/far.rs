@@ -1,5 +1,7 @@
 //! Integrals of 1/r over pairs of triangles that are far from each other: point and quadrupole.
 
+use fearless_simd::f64x4 as Four;
+use fearless_simd::{Level, Select, Simd, SimdBase, SimdFloat, dispatch};
 use wide::f64x4;
 
 use super::lanes::sum;
@@ -54,11 +56,11 @@ pub(super) struct Target {
 }
 
 /// What one pair of Target and Sources shares between its integrals.
-struct Pairing {
-    d: [f64x4; 3],
+struct Pairing<S: Simd> {
+    d: [Four<S>; 3],
     /// A_a A_b / R, zero for near pairs.
-    monopole: f64x4,
-    inverse2: f64x4,
+    monopole: Four<S>,
+    inverse2: Four<S>,
 }
 
 impl Target {
@@ -72,17 +74,18 @@ impl Target {
     }
 
     #[inline(always)]
-    fn pairing(&self, b: &Sources) -> Pairing {
-        let d: [f64x4; 3] = std::array::from_fn(|k| b.centroid[k] - self.centroid[k]);
+    fn pairing<S: Simd>(&self, simd: S, b: &Sources) -> Pairing<S> {
+        let (from, to) = (three(simd, &self.centroid), three(simd, &b.centroid));
+        let d = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
         let r2 = inner(d, d);
-        let larger = self
-            .longest2
-            .simd_gt(b.longest2)
-            .select(self.longest2, b.longest2);
+        let (own, other) = (load(simd, self.longest2), load(simd, b.longest2));
+        let larger = own.simd_gt(other).select(own, other);
         // The same quotient decides in the search for near pairs, so the two never disagree.
-        let far = (r2 / larger).simd_ge(f64x4::splat(NEAR2));
-        let inverse2 = f64x4::ONE / far.select(r2, f64x4::ONE);
-        let monopole = far.select(self.area * b.area, f64x4::ZERO) * inverse2.sqrt();
+        let far = (r2 / larger).simd_ge(Four::splat(simd, NEAR2));
+        let one = Four::splat(simd, 1.0);
+        let inverse2 = one / far.select(r2, one);
+        let areas = load(simd, self.area) * load(simd, b.area);
+        let monopole = far.select(areas, Four::splat(simd, 0.0)) * inverse2.sqrt();
         Pairing {
             d,
             monopole,
@@ -90,63 +93,104 @@ impl Target {
         }
     }
 
-    /// II 1/r with each of four sources, zero for the near ones.
-    #[inline(always)]
-    pub(super) fn potential(&self, b: &Sources) -> f64x4 {
-        let pairing = self.pairing(b);
-        let spread = std::array::from_fn(|k| self.spread[k] + b.spread[k]);
-        let reach = inner(pairing.d, product(&spread, pairing.d));
-        pairing.with_quadrupole(reach, spread[0] + spread[1] + spread[2])
+    /// II 1/r with each of the sources, zero for the near ones.
+    pub(super) fn potentials(&self, tile: &[Sources], values: &mut [f64x4]) {
+        dispatch!(Level::new(), simd => {
+            let own = six(simd, &self.spread);
+            for (b, value) in tile.iter().zip(values) {
+                let pairing = self.pairing(simd, b);
+                let mut spread = six(simd, &b.spread);
+                for k in 0..6 {
+                    spread[k] = own[k] + spread[k];
+                }
+                let reach = inner(pairing.d, product(&spread, pairing.d));
+                let trace = spread[0] + spread[1] + spread[2];
+                *value = stored(pairing.with_quadrupole(reach, trace));
+            }
+        });
     }
 
-    /// The same with a whole tile, adding the pairs to the sums of the row.
+    /// The same, adding the pairs to the sums of the row.
     pub(super) fn potentials_and_sums(
         &self,
         tile: &[Sources],
         values: &mut [f64x4],
         sums: &mut FarSums,
     ) {
-        let mut moments = [[f64x4::ZERO; 3]; TILE];
-        let mut normal_x = sums.normal_x;
-        for ((b, value), y) in tile.iter().zip(&mut *values).zip(&mut moments) {
-            let pairing = self.pairing(b);
-            let (own, other) = (
-                product(&self.spread, pairing.d),
-                product(&b.spread, pairing.d),
-            );
-            let reach = inner(pairing.d, own) + inner(pairing.d, other);
-            let trace = (self.spread[0] + b.spread[0])
-                + (self.spread[1] + b.spread[1])
-                + (self.spread[2] + b.spread[2]);
-            let p = pairing.with_quadrupole(reach, trace);
-            let dipole = pairing.monopole * pairing.inverse2;
-            *value = p;
-            *y = std::array::from_fn(|m| b.centroid[m] * p - other[m] * dipole);
-            normal_x += inner(b.normal, own) * dipole;
-        }
-        sums.normal_x = normal_x;
-        for k in 0..3 {
-            sums.add_axis(k, tile, values, &moments);
-        }
+        dispatch!(Level::new(), simd => {
+            let zero = Four::splat(simd, 0.0);
+            let mut moments = [[zero; 3]; TILE];
+            let mut potentials = [zero; TILE];
+            let mut normal_x = load(simd, sums.normal_x);
+            let spread = six(simd, &self.spread);
+            for (place, b) in tile.iter().enumerate() {
+                let pairing = self.pairing(simd, b);
+                let theirs = six(simd, &b.spread);
+                let (own, other) = (product(&spread, pairing.d), product(&theirs, pairing.d));
+                let reach = inner(pairing.d, own) + inner(pairing.d, other);
+                let trace = (spread[0] + theirs[0]) + (spread[1] + theirs[1]) + (spread[2] + theirs[2]);
+                let p = pairing.with_quadrupole(reach, trace);
+                let dipole = pairing.monopole * pairing.inverse2;
+                potentials[place] = p;
+                values[place] = stored(p);
+                let centroid = three(simd, &b.centroid);
+                for m in 0..3 {
+                    moments[place][m] = centroid[m] * p - other[m] * dipole;
+                }
+                normal_x += inner(three(simd, &b.normal), own) * dipole;
+            }
+            sums.normal_x = stored(normal_x);
+            for k in 0..3 {
+                sums.add_axis(simd, k, tile, &potentials, &moments);
+            }
+        });
     }
 }
 
-impl Pairing {
+impl<S: Simd> Pairing<S> {
     #[inline(always)]
-    fn with_quadrupole(&self, reach: f64x4, trace: f64x4) -> f64x4 {
-        let correction = f64x4::splat(3.0) * reach * self.inverse2 - trace;
-        self.monopole * (f64x4::ONE + f64x4::HALF * self.inverse2 * correction)
+    fn with_quadrupole(&self, reach: Four<S>, trace: Four<S>) -> Four<S> {
+        let correction = reach * 3.0 * self.inverse2 - trace;
+        self.monopole * (self.inverse2 * 0.5 * correction + 1.0)
     }
 }
 
 #[inline(always)]
-fn inner(a: [f64x4; 3], b: [f64x4; 3]) -> f64x4 {
+fn load<S: Simd>(simd: S, four: f64x4) -> Four<S> {
+    Four::from_slice(simd, &four.to_array())
+}
+
+#[inline(always)]
+fn stored<S: Simd>(four: Four<S>) -> f64x4 {
+    f64x4::new(four.into())
+}
+
+#[inline(always)]
+fn three<S: Simd>(simd: S, v: &[f64x4; 3]) -> [Four<S>; 3] {
+    [load(simd, v[0]), load(simd, v[1]), load(simd, v[2])]
+}
+
+#[inline(always)]
+fn six<S: Simd>(simd: S, m: &[f64x4; 6]) -> [Four<S>; 6] {
+    let ([a, b, c], [d, e, f]) = (
+        three(simd, &[m[0], m[1], m[2]]),
+        three(simd, &[m[3], m[4], m[5]]),
+    );
+    [a, b, c, d, e, f]
+}
+
+#[inline(always)]
+fn inner<S: Simd>(a: [Four<S>; 3], b: [Four<S>; 3]) -> Four<S> {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn total(x: f64x4) -> f64 {
+    sum(x.to_array())
 }
 
 /// Symmetric matrix (xx, yy, zz, xy, xz, yz) times vector.
 #[inline(always)]
-fn product(m: &[f64x4; 6], v: [f64x4; 3]) -> [f64x4; 3] {
+fn product<S: Simd>(m: &[Four<S>; 6], v: [Four<S>; 3]) -> [Four<S>; 3] {
     [
         m[0] * v[0] + m[3] * v[1] + m[4] * v[2],
         m[3] * v[0] + m[1] * v[1] + m[5] * v[2],
@@ -174,31 +218,46 @@ impl FarSums {
     }
 
     /// Adds the sums whose normal component is `k`: few enough to stay in registers.
-    fn add_axis(&mut self, k: usize, tile: &[Sources], p: &[f64x4], y: &[[f64x4; 3]]) {
-        let (mut normal, mut turn) = (self.normal[k], self.turn[k]);
-        let mut normal_y = self.normal_y[k];
+    #[inline(always)]
+    fn add_axis<S: Simd>(
+        &mut self,
+        simd: S,
+        k: usize,
+        tile: &[Sources],
+        p: &[Four<S>],
+        y: &[[Four<S>; 3]],
+    ) {
+        let (mut normal, mut turn) = (load(simd, self.normal[k]), load(simd, self.turn[k]));
+        let mut normal_y = three(simd, &self.normal_y[k]);
         for ((b, p), y) in tile.iter().zip(p).zip(y) {
-            normal += b.normal[k] * *p;
-            turn += b.turn[k] * *p;
+            let along = load(simd, b.normal[k]);
+            normal += along * *p;
+            turn += load(simd, b.turn[k]) * *p;
             for m in 0..3 {
-                normal_y[m] += b.normal[k] * y[m];
+                normal_y[m] += along * y[m];
             }
         }
-        (self.normal[k], self.turn[k], self.normal_y[k]) = (normal, turn, normal_y);
+        self.normal[k] = stored(normal);
+        self.turn[k] = stored(turn);
+        self.normal_y[k] = [
+            stored(normal_y[0]),
+            stored(normal_y[1]),
+            stored(normal_y[2]),
+        ];
     }
 
     /// The sums of the row of panel `a`.
     pub(super) fn finish(&self, a: &Panel) -> RowSums {
-        let normal: Vec3 = self.normal.map(sum);
+        let normal: Vec3 = self.normal.map(total);
         let mut sums = RowSums {
             normal,
-            normal_y: self.normal_y.map(|row| row.map(sum)),
-            normal_x: dot(a.centroid, normal) + sum(self.normal_x),
+            normal_y: self.normal_y.map(|row| row.map(total)),
+            normal_x: dot(a.centroid, normal) + total(self.normal_x),
             rotational: [[0.0; 3]; 3],
         };
         // The moment of x about its centroid adds the transpose of that of y: take it twice here,
         // the energy is symmetrized.
-        let (y, points) = (sums.y_cross_normal(), self.turn.map(sum));
+        let (y, points) = (sums.y_cross_normal(), self.turn.map(total));
         let x = cross(a.centroid, a.normal);
         sums.rotational =
             std::array::from_fn(|k| std::array::from_fn(|l| x[k] * (2.0 * y[l] - points[l])));
@@ -226,6 +285,12 @@ mod tests {
         Panels::new(&vertices, &[[0, 1, 2], [3, 4, 5]])
     }
 
+    fn alone(target: &Target, sources: &[Sources]) -> [f64; 4] {
+        let mut values = [f64x4::ZERO];
+        target.potentials(sources, &mut values);
+        values[0].to_array()
+    }
+
     #[test]
     fn far_pairs_agree_with_the_exact_ones() {
         let panels = two_triangles(6.0).panels;
@@ -239,7 +304,7 @@ mod tests {
         let p = p[0].to_array();
         assert_eq!(p[0], 0.0, "a panel is near itself");
         assert!((p[1] / exact.p - 1.0).abs() < 2e-5, "{} {}", p[1], exact.p);
-        let plain = target.potential(&sources[0]).to_array();
+        let plain = alone(&target, &sources);
         assert!((plain[1] / p[1] - 1.0).abs() < 1e-15);
         let mut near = RowSums::default();
         near.add_near(&exact, panels[1].normal);
@@ -258,8 +323,8 @@ mod tests {
     fn a_pair_is_the_same_from_both_ends() {
         let panels = two_triangles(4.0).panels;
         let sources = Sources::all(&panels);
-        let ab = Target::new(&panels[0]).potential(&sources[0]).to_array()[1];
-        let ba = Target::new(&panels[1]).potential(&sources[0]).to_array()[0];
+        let ab = alone(&Target::new(&panels[0]), &sources)[1];
+        let ba = alone(&Target::new(&panels[1]), &sources)[0];
         assert_eq!(ab, ba);
     }
 }

@@ -6,7 +6,7 @@
 //! moments up to the second. Every sum has one order, whatever the number of threads.
 
 use rayon::prelude::*;
-use wide::bytemuck::cast_slice_mut;
+use wide::bytemuck::{cast_slice, cast_slice_mut};
 use wide::f64x4;
 
 use super::AddedMassError;
@@ -403,8 +403,10 @@ impl Operator for Hierarchical<'_> {
             .iter()
             .map(|&a| {
                 let target = Target::new(&self.panels.panels[a as usize]);
-                let values = sources.iter().flat_map(|b| target.potential(b).to_array());
-                let mut row: Vec<f64> = values.take(members.len()).collect();
+                let mut values = vec![f64x4::ZERO; sources.len()];
+                target.potentials(&sources, &mut values);
+                let values: &[f64] = cast_slice(&values);
+                let mut row = values[..members.len()].to_vec();
                 self.put_near(a, &members, &mut row);
                 row
             })

@@ -1,7 +1,7 @@
 //! Integrals of 1/r over pairs of triangles that are near each other: exact inside, quadrature
 //! outside (A. Carley and D. Wilton et al.; the forms here have no cancellation that matters).
 
-use wide::f64x4;
+use fearless_simd::{ExtractToken, Level, Select, Simd, SimdBase, SimdFloat, dispatch, f64x4};
 
 use super::lanes::{angle, ln, sum};
 use super::panels::{Panel, Vec3};
@@ -42,38 +42,44 @@ const UNEQUAL2: f64 = 1.517 * 1.517;
 
 /// The moments of a pair; the order of the arguments swaps x and y and changes nothing else.
 pub(super) fn pair(a: &Potential, b: &Potential, rule: &Rule) -> PairMoments {
-    let forward = || directed(a, b, rule);
-    let backward = || directed(b, a, rule).swapped();
-    if a.longest2 > UNEQUAL2 * b.longest2 {
-        backward()
-    } else if b.longest2 > UNEQUAL2 * a.longest2 {
-        forward()
-    } else {
-        forward().mean(&backward())
-    }
+    dispatch!(Level::new(), simd => {
+        if a.longest2 > UNEQUAL2 * b.longest2 {
+            directed(simd, b, a, rule).swapped()
+        } else if b.longest2 > UNEQUAL2 * a.longest2 {
+            directed(simd, a, b, rule)
+        } else {
+            directed(simd, a, b, rule).mean(&directed(simd, b, a, rule).swapped())
+        }
+    })
 }
 
 /// The moments of a triangle with itself.
 pub(super) fn own(a: &Potential, rule: &Rule) -> PairMoments {
-    let once = directed(a, a, rule);
+    let once = dispatch!(Level::new(), simd => directed(simd, a, a, rule));
     once.mean(&once.swapped())
 }
 
 /// Quadrature over x in `outer`, exact integration over y in `inner`.
-fn directed(outer: &Potential, inner: &Potential, rule: &Rule) -> PairMoments {
+#[inline(always)]
+fn directed<S: Simd>(simd: S, outer: &Potential, inner: &Potential, rule: &Rule) -> PairMoments {
     let [v0, v1, v2] = outer.corners;
-    let (mut p, mut x, mut y) = (f64x4::ZERO, [f64x4::ZERO; 3], [f64x4::ZERO; 3]);
-    let mut xy = [[f64x4::ZERO; 3]; 3];
+    let zero = f64x4::splat(simd, 0.0);
+    let (mut p, mut x, mut y) = (zero, [zero; 3], [zero; 3]);
+    let mut xy = [[zero; 3]; 3];
     for node in &rule.nodes {
-        let at: [f64x4; 3] = std::array::from_fn(|k| {
-            node.barycentric[0] * v0[k] + node.barycentric[1] * v1[k] + node.barycentric[2] * v2[k]
-        });
+        let [b0, b1, b2] = &node.barycentric;
+        let [b0, b1, b2] = [load(simd, b0), load(simd, b1), load(simd, b2)];
+        let weight = load(simd, &node.weight);
+        let mut at = [zero; 3];
+        for k in 0..3 {
+            at[k] = b0 * v0[k] + b1 * v1[k] + b2 * v2[k];
+        }
         let (value, first) = inner.at(at);
-        let value = node.weight * value;
+        let value = weight * value;
         p += value;
         for k in 0..3 {
             x[k] += at[k] * value;
-            let moment = node.weight * first[k] + at[k] * value;
+            let moment = weight * first[k] + at[k] * value;
             y[k] += moment;
             for l in 0..3 {
                 xy[l][k] += at[l] * moment;
@@ -81,13 +87,19 @@ fn directed(outer: &Potential, inner: &Potential, rule: &Rule) -> PairMoments {
         }
     }
     let area = 0.5 * outer.double_area;
-    let total = |v: f64x4| sum(v) * area;
+    let total = |v: f64x4<S>| sum(v.into()) * area;
+    let three = |v: [f64x4<S>; 3]| [total(v[0]), total(v[1]), total(v[2])];
     PairMoments {
         p: total(p),
-        x: x.map(total),
-        y: y.map(total),
-        xy: xy.map(|row| row.map(total)),
+        x: three(x),
+        y: three(y),
+        xy: [three(xy[0]), three(xy[1]), three(xy[2])],
     }
+}
+
+#[inline(always)]
+fn load<S: Simd>(simd: S, four: &[f64; 4]) -> f64x4<S> {
+    f64x4::from_slice(simd, four)
 }
 
 /// The exact integrals of 1/r and (y - x)/r over a triangle, seen from any point x.
@@ -121,24 +133,29 @@ impl Potential {
     }
 
     #[inline(always)]
-    fn at(&self, x: [f64x4; 3]) -> (f64x4, [f64x4; 3]) {
-        let to: [[f64x4; 3]; 3] = self
-            .corners
-            .map(|c| std::array::from_fn(|k| f64x4::splat(c[k]) - x[k]));
-        let length: [f64x4; 3] = to.map(|r| inner(r, r).sqrt());
+    fn at<S: Simd>(&self, x: [f64x4<S>; 3]) -> (f64x4<S>, [f64x4<S>; 3]) {
+        let simd = x[0].token();
+        let zero = f64x4::splat(simd, 0.0);
+        let (mut to, mut length) = ([[zero; 3]; 3], [zero; 3]);
+        for corner in 0..3 {
+            for k in 0..3 {
+                to[corner][k] = f64x4::splat(simd, self.corners[corner][k]) - x[k];
+            }
+            length[corner] = inner(to[corner], to[corner]).sqrt();
+        }
         let height = against(to[0], self.normal);
-        let mut value = f64x4::ZERO;
-        let mut first = [f64x4::ZERO; 3];
+        let mut value = zero;
+        let mut first = [zero; 3];
         for k in 0..3 {
             let far = (k + 1) % 3;
             let across = against(to[k], self.outward[k]);
             let along = against(to[k], self.tangents[k]);
-            let edge = f64x4::splat(self.lengths[k]);
+            let edge = f64x4::splat(simd, self.lengths[k]);
             let log = edge_log(length[k] + length[far], edge);
             value += across * log;
-            let g = f64x4::HALF
-                * ((along + edge) * length[far] - along * length[k]
-                    + (across * across + height * height) * log);
+            let g = ((along + edge) * length[far] - along * length[k]
+                + (across * across + height * height) * log)
+                * 0.5;
             for m in 0..3 {
                 first[m] += g * self.outward[k][m];
             }
@@ -152,12 +169,17 @@ impl Potential {
 
     /// Solid angle without its sign (A. van Oosterom and J. Strackee, 1983).
     #[inline(always)]
-    fn solid_angle(&self, to: [[f64x4; 3]; 3], length: [f64x4; 3], height: f64x4) -> f64x4 {
+    fn solid_angle<S: Simd>(
+        &self,
+        to: [[f64x4<S>; 3]; 3],
+        length: [f64x4<S>; 3],
+        height: f64x4<S>,
+    ) -> f64x4<S> {
         let denominator = length[0] * length[1] * length[2]
             + inner(to[0], to[1]) * length[2]
             + inner(to[1], to[2]) * length[0]
             + inner(to[2], to[0]) * length[1];
-        f64x4::splat(2.0) * angle(height.abs() * self.double_area, denominator)
+        angle(height.abs() * self.double_area, denominator) * 2.0
     }
 }
 
@@ -165,27 +187,27 @@ impl Potential {
 ///
 /// On the edge itself the integral diverges; it is bounded here, and its factor is zero there.
 #[inline(always)]
-fn edge_log(both: f64x4, edge: f64x4) -> f64x4 {
+fn edge_log<S: Simd>(both: f64x4<S>, edge: f64x4<S>) -> f64x4<S> {
     let gap = both - edge;
-    let floor = edge * f64x4::splat(1e-15);
+    let floor = edge * 1e-15;
     ln((both + edge) / gap.simd_gt(floor).select(gap, floor))
 }
 
 #[inline(always)]
-fn inner(a: [f64x4; 3], b: [f64x4; 3]) -> f64x4 {
+fn inner<S: Simd>(a: [f64x4<S>; 3], b: [f64x4<S>; 3]) -> f64x4<S> {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-fn against(a: [f64x4; 3], b: Vec3) -> f64x4 {
+fn against<S: Simd>(a: [f64x4<S>; 3], b: Vec3) -> f64x4<S> {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Four quadrature points in barycentric coordinates; weights sum to 1 over the rule.
 #[derive(Debug, Clone)]
 struct Nodes {
-    barycentric: [f64x4; 3],
-    weight: f64x4,
+    barycentric: [[f64; 4]; 3],
+    weight: [f64; 4],
 }
 
 /// A quadrature rule on a triangle.
@@ -237,8 +259,8 @@ impl Rule {
                 let get = |i: usize| four.get(i).copied().unwrap_or((four[0].0, 0.0));
                 let lanes = [0, 1, 2, 3].map(get);
                 Nodes {
-                    barycentric: [0, 1, 2].map(|k| f64x4::new(lanes.map(|(b, _)| b[k]))),
-                    weight: f64x4::new(lanes.map(|(_, w)| w)),
+                    barycentric: [0, 1, 2].map(|k| lanes.map(|(b, _)| b[k])),
+                    weight: lanes.map(|(_, w)| w),
                 }
             })
             .collect();
@@ -279,8 +301,8 @@ mod tests {
         ] {
             for (i, j) in (0..=degree).flat_map(|i| (0..=degree - i).map(move |j| (i, j))) {
                 let term = |n: &Nodes| {
-                    let [_, x, y] = n.barycentric.map(f64x4::to_array);
-                    let w = n.weight.to_array();
+                    let [_, x, y] = n.barycentric;
+                    let w = n.weight;
                     (0..4)
                         .map(|l| w[l] * x[l].powi(i) * y[l].powi(j))
                         .sum::<f64>()
@@ -312,6 +334,14 @@ mod tests {
         (value, first)
     }
 
+    /// The integrals seen from one point, one lane of them.
+    fn seen(potential: &Potential, x: Vec3, lane: usize) -> (f64, Vec3) {
+        dispatch!(Level::new(), simd => {
+            let (value, first) = potential.at(x.map(|x| f64x4::splat(simd, x)));
+            (value[lane], first.map(|f| f[lane]))
+        })
+    }
+
     #[test]
     fn exact_potential_agrees_with_a_fine_sum() {
         let points = [[0.1, 0.0, 0.2], [1.0, 0.3, 0.1], [0.2, 0.9, -0.3]];
@@ -322,14 +352,11 @@ mod tests {
             [2.0, -1.0, 0.3],
             [-0.5, 0.1, 0.2],
         ] {
-            let (value, first) = potential.at(x.map(f64x4::splat));
+            let (value, first) = seen(&potential, x, 0);
             let (want, moment) = brute_force(points, x);
-            assert!((value.to_array()[0] - want).abs() < 1e-5 * want, "{x:?}");
+            assert!((value - want).abs() < 1e-5 * want, "{x:?}");
             for k in 0..3 {
-                assert!(
-                    (first[k].to_array()[0] - moment[k]).abs() < 1e-5 * want,
-                    "{x:?} {k}"
-                );
+                assert!((first[k] - moment[k]).abs() < 1e-5 * want, "{x:?} {k}");
             }
         }
     }
@@ -338,9 +365,9 @@ mod tests {
     fn potential_in_the_plane_is_finite_and_known() {
         // At the corner of the right angle: integral of 1/r = sqrt(2) ln(1 + sqrt(2)).
         let potential = Potential::new(&right_triangle());
-        let (value, _) = potential.at([f64x4::ZERO; 3]);
+        let (value, _) = seen(&potential, [0.0; 3], 3);
         let want = 2f64.sqrt() * libm::log(1.0 + 2f64.sqrt());
-        assert!((value.to_array()[3] - want).abs() < 1e-13);
+        assert!((value - want).abs() < 1e-13);
     }
 
     #[test]

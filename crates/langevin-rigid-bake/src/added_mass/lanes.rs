@@ -3,8 +3,7 @@
 //! Only operations that IEEE 754 rounds correctly are used, so the bits are the same on every
 //! processor; the library versions fuse multiplications where the target can.
 
-use wide::bytemuck::cast;
-use wide::{f64x4, u64x4};
+use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, f64x4, u64x4};
 
 /// Bits by which a mantissa in [1, 2) is moved to [sqrt(1/2), sqrt(2)).
 const SQRT_HALF_BITS: u64 = 0x3fe6_a09e_667f_3bcd;
@@ -16,23 +15,20 @@ const LN2_LO: f64 = 1.908_214_929_270_587_7e-10;
 
 /// Natural logarithm of positive normal numbers, to about one unit in the last place.
 #[inline(always)]
-pub(super) fn ln(x: f64x4) -> f64x4 {
-    let shifted = cast::<f64x4, u64x4>(x) + u64x4::splat(ONE_BITS - SQRT_HALF_BITS);
-    let exponent = cast::<u64x4, f64x4>((shifted >> 52) | u64x4::splat(TWO_52.to_bits()))
-        - f64x4::splat(TWO_52 + 1023.0);
-    let mantissa: f64x4 = cast((shifted & u64x4::splat(MANTISSA)) + u64x4::splat(SQRT_HALF_BITS));
-    let f = mantissa - f64x4::ONE;
-    let s = f / (f + f64x4::splat(2.0));
-    let half_square = f64x4::HALF * f * f;
-    s * (half_square + log_series(s * s)) + exponent * f64x4::splat(LN2_LO) - half_square
-        + f
-        + exponent * f64x4::splat(LN2_HI)
+pub(super) fn ln<S: Simd>(x: f64x4<S>) -> f64x4<S> {
+    let shifted = x.bitcast::<u64x4<S>>() + (ONE_BITS - SQRT_HALF_BITS);
+    let exponent = ((shifted >> 52) | TWO_52.to_bits()).bitcast::<f64x4<S>>() - (TWO_52 + 1023.0);
+    let mantissa = ((shifted & MANTISSA) + SQRT_HALF_BITS).bitcast::<f64x4<S>>();
+    let f = mantissa - 1.0;
+    let s = f / (f + 2.0);
+    let half_square = f * 0.5 * f;
+    s * (half_square + log_series(s * s)) + exponent * LN2_LO - half_square + f + exponent * LN2_HI
 }
 
 /// The minimax series of (ln(1+f) - 2 s) / s + ..., in z = s^2 (W. J. Cody's form, as in fdlibm).
 #[inline(always)]
-fn log_series(z: f64x4) -> f64x4 {
-    let c = f64x4::splat;
+fn log_series<S: Simd>(z: f64x4<S>) -> f64x4<S> {
+    let c = constants(z);
     let w = z * z;
     let even = w
         * (c(3.999_999_999_940_942e-1)
@@ -46,8 +42,9 @@ fn log_series(z: f64x4) -> f64x4 {
 
 /// Angle in [0, pi] of the point (x, y) with y >= 0; 0 at the origin.
 #[inline(always)]
-pub(super) fn angle(y: f64x4, x: f64x4) -> f64x4 {
-    let c = f64x4::splat;
+pub(super) fn angle<S: Simd>(y: f64x4<S>, x: f64x4<S>) -> f64x4<S> {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+    let c = constants(x);
     let ax = x.abs();
     let steep = y.simd_gt(ax);
     let large = steep.select(y, ax);
@@ -55,18 +52,17 @@ pub(super) fn angle(y: f64x4, x: f64x4) -> f64x4 {
     let reduce = small.simd_gt(large * c(0.414_213_562_373_095_1));
     let numerator = reduce.select(small - large, small);
     let denominator = reduce.select(small + large, large);
-    let safe = denominator.simd_gt(f64x4::ZERO);
-    let q = safe.select(numerator / denominator, f64x4::ZERO);
-    let octant = atan_small(q) + reduce.select(f64x4::FRAC_PI_4, f64x4::ZERO);
-    let quadrant = steep.select(f64x4::FRAC_PI_2 - octant, octant);
-    x.simd_lt(f64x4::ZERO)
-        .select(f64x4::PI - quadrant, quadrant)
+    let safe = denominator.simd_gt(c(0.0));
+    let q = safe.select(numerator / denominator, c(0.0));
+    let octant = atan_small(q) + reduce.select(c(FRAC_PI_4), c(0.0));
+    let quadrant = steep.select(c(FRAC_PI_2) - octant, octant);
+    x.simd_lt(c(0.0)).select(c(PI) - quadrant, quadrant)
 }
 
 /// Arc tangent for |q| <= tan(pi/8), rational approximation of the Cephes library (S. Moshier).
 #[inline(always)]
-fn atan_small(q: f64x4) -> f64x4 {
-    let c = f64x4::splat;
+fn atan_small<S: Simd>(q: f64x4<S>) -> f64x4<S> {
+    let c = constants(q);
     let z = q * q;
     let p = (((c(-8.750_608_600_031_904e-1) * z - c(16.157_537_187_333_652)) * z
         - c(75.008_557_923_147_05))
@@ -85,27 +81,42 @@ fn atan_small(q: f64x4) -> f64x4 {
 
 /// Sum of the lanes in a fixed order.
 #[inline(always)]
-pub(super) fn sum(x: f64x4) -> f64 {
-    let [a, b, c, d] = x.to_array();
+pub(super) fn sum([a, b, c, d]: [f64; 4]) -> f64 {
     (a + b) + (c + d)
+}
+
+/// A constant in the lanes of `like`.
+#[inline(always)]
+fn constants<S: Simd>(like: f64x4<S>) -> impl Fn(f64) -> f64x4<S> {
+    let simd = like.token();
+    move |value| f64x4::splat(simd, value)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fearless_simd::{Level, dispatch};
+
+    fn ln_of(x: f64) -> [f64; 4] {
+        dispatch!(Level::new(), simd => ln(f64x4::splat(simd, x)).into())
+    }
+
+    fn angle_of(y: f64, x: f64) -> [f64; 4] {
+        dispatch!(Level::new(), simd => angle(f64x4::splat(simd, y), f64x4::splat(simd, x)).into())
+    }
 
     #[test]
     fn logarithm_agrees_with_the_scalar_one() {
         for k in 0..4000 {
             let x = libm::exp(f64::from(k - 2000) * 0.037) * (1.0 + f64::from(k) * 1e-5);
-            let got = ln(f64x4::splat(x)).to_array()[2];
+            let got = ln_of(x)[2];
             let want = libm::log(x);
             assert!(
                 (got - want).abs() <= 4e-16 * want.abs().max(0.25),
                 "{x}: {got} {want}"
             );
         }
-        assert_eq!(ln(f64x4::ONE).to_array(), [0.0; 4]);
+        assert_eq!(ln_of(1.0), [0.0; 4]);
     }
 
     #[test]
@@ -113,9 +124,9 @@ mod tests {
         for k in 0..=2000 {
             let t = f64::from(k) * std::f64::consts::PI / 2000.0;
             let (y, x) = (3.0 * libm::sin(t).abs(), 3.0 * libm::cos(t));
-            let got = angle(f64x4::splat(y), f64x4::splat(x)).to_array()[1];
+            let got = angle_of(y, x)[1];
             assert!((got - libm::atan2(y, x)).abs() <= 1e-15, "{t}: {got}");
         }
-        assert_eq!(angle(f64x4::ZERO, f64x4::ZERO).to_array(), [0.0; 4]);
+        assert_eq!(angle_of(0.0, 0.0), [0.0; 4]);
     }
 }
