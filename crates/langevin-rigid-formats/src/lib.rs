@@ -6,6 +6,7 @@ pub mod baking;
 pub mod ensemble;
 pub mod files;
 pub mod mesh;
+pub mod motion;
 pub mod picture;
 pub mod regimes;
 pub mod scene;

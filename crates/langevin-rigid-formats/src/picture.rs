@@ -14,9 +14,9 @@ mod hull;
 mod labels;
 mod layout;
 mod legend;
-mod motion;
 mod numbers;
 mod palette;
+mod placement;
 mod raster;
 mod regimes;
 mod scene;
@@ -27,26 +27,17 @@ mod solid;
 mod strobe;
 mod vector;
 
+use crate::motion::{Motion, MotionError};
 use canvas::Canvas;
 pub use film::Film;
 use hull::Hull;
 use layout::Layout;
-use motion::Motion;
+use placement::Placement;
 pub use regimes::regime_map;
 use scene::Trail;
 use solid::Solid;
 
-/// Where the body is at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
-    /// Time, s.
-    pub time: f64,
-    /// Position of the body frame's origin in the world frame (+y up), m.
-    pub position: [f64; 3],
-    /// Quaternion (x, y, z, w) that turns body coordinates into world coordinates; need not be of
-    /// unit length.
-    pub orientation: [f64; 4],
-}
+pub use crate::motion::Pose;
 
 /// The body to draw.
 #[derive(Clone, Copy, Debug)]
@@ -115,27 +106,9 @@ impl Default for PictureOptions {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PictureError {
-    /// The trajectory is empty.
-    #[error("there are no poses to draw: give at least one")]
-    NoPoses,
-    /// A pose is not a finite placement: a diverged simulation, or a zero quaternion.
-    #[error(
-        "pose {index} cannot be drawn: time {} s, position {:?} m, orientation {:?} (all must be \
-         finite, positions within 1e12 m, the quaternion not zero); cut the trajectory before it",
-        pose.time, pose.position, pose.orientation
-    )]
-    BadPose {
-        /// Its place in the trajectory, from zero.
-        index: usize,
-        /// The pose as given.
-        pose: Pose,
-    },
-    /// Time runs backward.
-    #[error("pose {index} is earlier than the one before it: sort the poses by time")]
-    TimeOrder {
-        /// The later pose's place in the trajectory, from zero.
-        index: usize,
-    },
+    /// The poses are no motion.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
     /// The body has no surface.
     #[error("the body has no triangles: give the mesh that was simulated")]
     NoTriangles,
@@ -330,7 +303,11 @@ pub fn trajectory_picture(
 /// Bodies in line with one view may be well apart in the other, so the clearest panel decides.
 fn crowded(layout: &Layout, solid: &Solid, motion: &Motion<'_>, times: &[f64]) -> bool {
     layout.panels.iter().all(|panel| {
-        let hull = |t: &f64| layout.view(panel, solid, &motion.at(*t)).hull();
+        let hull = |t: &f64| {
+            layout
+                .view(panel, solid, &Placement::of(motion.at(*t)))
+                .hull()
+        };
         let apart = 3.0 * layout.unit;
         let hulls: Vec<Hull> = times.iter().map(|t| hull(t).grown(apart)).collect();
         strobe::crowded(&hulls)

@@ -5,6 +5,7 @@
 //! failure means a body that is missing, cut off, seen from the wrong side or painted in the wrong
 //! order, words that are not there, or a picture that is not the same every time.
 
+use langevin_rigid_formats::motion::MotionError;
 use langevin_rigid_formats::picture::{
     Film, Picture, PictureError, PictureOptions, Pose, Subject, View, trajectory_picture,
 };
@@ -304,7 +305,10 @@ fn what_cannot_be_drawn_is_named() {
         trajectory_picture(subject, poses, &options).unwrap_err()
     };
     let good = at(0.0, [0.0; 3], LEVEL);
-    assert_eq!(fails(&SHEET, &[], None), PictureError::NoPoses);
+    assert_eq!(
+        fails(&SHEET, &[], None),
+        PictureError::Motion(MotionError::NoPoses)
+    );
     for bad in [
         at(f64::NAN, [0.0; 3], LEVEL),
         at(1.0, [0.0, f64::INFINITY, 0.0], LEVEL),
@@ -314,7 +318,10 @@ fn what_cannot_be_drawn_is_named() {
     ] {
         let error = fails(&SHEET, &[good, bad], None);
         assert!(
-            matches!(error, PictureError::BadPose { index: 1, .. }),
+            matches!(
+                error,
+                PictureError::Motion(MotionError::BadPose { index: 1, .. })
+            ),
             "{error}"
         );
         assert!(error.to_string().starts_with("pose 1 "), "{error}");
@@ -322,7 +329,7 @@ fn what_cannot_be_drawn_is_named() {
     let backward = [at(1.0, [0.0; 3], LEVEL), good];
     assert_eq!(
         fails(&SHEET, &backward, None),
-        PictureError::TimeOrder { index: 1 }
+        PictureError::Motion(MotionError::TimeOrder { index: 1 })
     );
     for [width, height] in [[0, 800], [800, 0], [100_000, 800], [u32::MAX, u32::MAX]] {
         let error = fails(&SHEET, &[good], Some([width, height]));

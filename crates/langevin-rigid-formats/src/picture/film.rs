@@ -2,12 +2,12 @@
 
 use super::canvas::Canvas;
 use super::layout::Layout;
-use super::motion::Motion;
 use super::numbers::fixed;
 use super::scene::{self, Trail};
 use super::solid::Solid;
 use super::strobe::Instants;
 use super::{Picture, PictureError, PictureOptions, Pose, Subject, axes, legend};
+use crate::motion::Motion;
 
 /// The frames of a motion, all of one size and seen from one place.
 ///

@@ -3,12 +3,13 @@
 
 use super::camera::{Camera, Direction};
 use super::canvas::{Area, Point};
-use super::motion::{Motion, Placement};
 use super::numbers::fine_above;
+use super::placement::Placement;
 use super::raster::View;
 use super::solid::Solid;
 use super::vector::{Vec3, mul_mat, sub};
 use super::{PictureError, PictureOptions};
+use crate::motion::Motion;
 
 /// Lengths in units of the page, which is a pixel on a page of ordinary size.
 const MARGIN: f64 = 36.0;
@@ -264,7 +265,7 @@ fn bounds(
     ground: Option<f64>,
 ) -> (Bounds, Option<f64>) {
     let path = Bounds::of(motion.poses().iter().map(|p| p.position));
-    let at = |p: &super::Pose| motion.at(p.time).to_world(solid.centre);
+    let at = |p: &super::Pose| Placement::of(motion.at(p.time)).to_world(solid.centre);
     let bodies = Bounds::of(motion.poses().iter().map(at)).grown(magnification * solid.radius);
     let mut bounds = path.union(bodies);
     // Room for a path shorter than the digits of its position, or of no length at all.
@@ -513,7 +514,7 @@ mod tests {
                 for panel in &layout.panels {
                     assert!(page.covers(&panel.plot), "{path:?} {:?}", panel.plot);
                     for pose in motion.poses() {
-                        let at = motion.at(pose.time);
+                        let at = Placement::of(motion.at(pose.time));
                         let body = layout.view(panel, solid, &at).hull().area();
                         assert!(
                             panel.plot.covers(&body),

@@ -4,12 +4,12 @@ use super::axes::style;
 use super::canvas::{Align, Canvas, Point, TextStyle};
 use super::font::Weight;
 use super::layout::Layout;
-use super::motion::Motion;
 use super::numbers::{LengthUnit, coarse_below, short};
 use super::palette::{Colour, LOWER_FACE, OUTLINE, TEXT, UPPER_FACE, path as path_colour};
 use super::scene::{end_mark, start_mark};
 use super::solid::Solid;
 use super::strobe::Instants;
+use crate::motion::Motion;
 
 /// Page lengths in units.
 const TITLE: f64 = 30.0;

@@ -5,13 +5,14 @@ use super::canvas::{Area, Canvas, Point};
 use super::hull::Hull;
 use super::labels::{self, Obstacles};
 use super::layout::{Layout, Panel};
-use super::motion::{Motion, Placement};
 use super::palette::{PAGE, path as path_colour};
+use super::placement::Placement;
 use super::raster::View;
 use super::shadows;
 use super::solid::Solid;
 use super::strobe::Instants;
 use super::vector::{norm, sub};
+use crate::motion::Motion;
 
 /// Page lengths in units.
 const PATH_WIDTH: f64 = 3.4;
@@ -75,7 +76,7 @@ pub(super) fn draw(
     let bodies: Vec<Body<'_>> = instants
         .times
         .iter()
-        .map(|t| body(layout, panel, solid, motion.at(*t)))
+        .map(|t| body(layout, panel, solid, Placement::of(motion.at(*t))))
         .collect();
     let places = places(layout, panel, motion, trail);
     let pieces = pieces(layout, solid, &places, &bodies);

@@ -3,8 +3,8 @@
 use super::axes::floor;
 use super::canvas::{Canvas, Point};
 use super::layout::{Layout, Panel};
-use super::motion::Placement;
 use super::palette::{FRAME, SHADOW};
+use super::placement::Placement;
 use super::solid::Solid;
 use super::vector::{Vec3, add, mul_vec, scale};
 

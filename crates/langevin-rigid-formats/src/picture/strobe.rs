@@ -1,8 +1,8 @@
 //! The equal times at which the body is drawn.
 
 use super::hull::Hull;
-use super::motion::Motion;
 use super::numbers::fine_above;
+use crate::motion::Motion;
 
 /// Overlapping pairs tolerated, and more for each body drawn: a body released from rest overlaps
 /// itself at the start, however far apart the rest are.
