@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use langevin_rigid::{Model, TurbulenceSource};
+use langevin_rigid_formats::export::{Format as TrajectoryFormat, Up};
 use langevin_rigid_formats::mesh::LengthUnit;
 use langevin_rigid_report::{PARTS, Part};
 
@@ -27,6 +28,7 @@ pub(crate) struct Arguments {
 #[derive(Subcommand)]
 pub(crate) enum Command {
     Simulate(Simulate),
+    Export(Export),
     Ensemble(Ensemble),
     Regimes(Regimes),
     AddedMass(AddedMass),
@@ -50,9 +52,13 @@ Examples:
   langevin-rigid simulate ellipsoid-water --model kirchhoff
   langevin-rigid simulate business-card --picture strobe --view iso
   langevin-rigid simulate business-card --view front --frames frames
+  langevin-rigid simulate leaf --bodies 100 --format glb,usd
 
-Writes into DIR: trajectory.csv (world frame; metres, seconds, radians), trajectory.png,
-summary.json and scene.toml, the scene with every choice spelled out.")]
+Writes into DIR: the trajectory in each FORMAT, trajectory.png, summary.json and scene.toml, the scene
+with every choice spelled out.
+
+Formats: csv, npz and parquet are tables of every step (world frame, +Y up; metres, seconds, radians);
+glb (glTF) and usd (OpenUSD) are animations with the body's mesh.")]
 pub(crate) struct Simulate {
     /// A built-in scene (see `langevin-rigid scenes`) or a scene file.
     #[arg(default_value = "leaf")]
@@ -84,12 +90,56 @@ pub(crate) struct Simulate {
     /// Write a film into this folder as frame-00001.png, frame-00002.png, ...
     #[arg(long, value_name = "DIR")]
     pub(crate) frames: Option<PathBuf>,
-    /// Frames a second of the film.
-    #[arg(long, value_name = "N", default_value = "60", value_parser = positive, requires = "frames")]
+    /// Bodies to drop side by side, scattered as the scene says; they do not meet.
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) bodies: u32,
+    /// Formats of the trajectory, with commas between them: csv, npz, parquet, glb, usd.
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        default_value = "csv,glb",
+        value_delimiter = ','
+    )]
+    pub(crate) format: Vec<TrajectoryFormat>,
+    /// Frames a second of the film, of glb and of usd.
+    #[arg(long, value_name = "N", default_value = "60", value_parser = positive)]
     pub(crate) fps: f64,
     /// Print the summary as JSON.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// Write a run that was made in other formats.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid export out/leaf
+  langevin-rigid export out/leaf --format usd --fps 24 --up z
+  langevin-rigid export out/leaf --format npz,parquet --out tables
+
+Reads trajectory.csv and scene.toml, which `simulate` wrote into RUN. The formats are those of
+`simulate`: csv, npz and parquet have every step, glb and usd have frames. glb has +Y up by definition,
+which programs turn to their own axes; --up is for the others.")]
+pub(crate) struct Export {
+    /// Folder that `simulate` wrote.
+    pub(crate) run: PathBuf,
+    /// Formats, with commas between them: csv, npz, parquet, glb, usd.
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        default_value = "glb,usd",
+        value_delimiter = ','
+    )]
+    pub(crate) format: Vec<TrajectoryFormat>,
+    /// Frames a second of glb and usd.
+    #[arg(long, value_name = "N", default_value = "60", value_parser = positive)]
+    pub(crate) fps: f64,
+    /// The axis that points up in the world: y or z.
+    #[arg(long, value_name = "AXIS", default_value = "y")]
+    pub(crate) up: Up,
+    /// Folder for the files [default: RUN].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -15,7 +15,8 @@ use serde::Serialize;
 use crate::arguments::Ensemble;
 use crate::bars::Bars;
 use crate::cache;
-use crate::simulate::{check_start, resolved, set_model};
+use crate::falls::check_start;
+use crate::simulate::{resolved, set_model};
 
 /// `statistics.json`; SI units.
 #[derive(Debug, Serialize)]

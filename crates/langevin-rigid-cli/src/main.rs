@@ -8,6 +8,8 @@ mod bench;
 mod cache;
 mod crowd;
 mod ensemble;
+mod export;
+mod falls;
 mod pictures;
 mod regimes;
 mod reproduce;
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
     let bars = Bars::new();
     let done = match &arguments.command {
         Command::Simulate(options) => simulate::simulate(options, &bars),
+        Command::Export(options) => export::export(options, &bars),
         Command::Ensemble(options) => ensemble::ensemble(options, &bars),
         Command::Regimes(options) => regimes::regimes(options, &bars),
         Command::AddedMass(options) => added_mass::added_mass(options, &bars),

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use langevin_rigid::{State, Surface};
+use langevin_rigid::Surface;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::baking::Baked;
 use langevin_rigid_formats::files;
@@ -23,7 +23,7 @@ const BATCH: usize = 32;
 /// A run as the command line wants it drawn.
 pub(crate) struct Shot<'a> {
     surface: &'a Surface,
-    poses: Vec<Pose>,
+    poses: &'a [Pose],
     options: PictureOptions,
 }
 
@@ -40,18 +40,13 @@ impl<'a> Shot<'a> {
         options: &Simulate,
         scene: &Scene,
         baked: &'a Baked,
-        states: &[State],
+        poses: &'a [Pose],
     ) -> Self {
         let (model, seed) = (scene.settings.model, scene.seed);
-        let pose = |s: &State| Pose {
-            time: s.time,
-            position: s.position,
-            orientation: s.orientation,
-        };
         let usual = PictureOptions::default();
         Self {
             surface: &baked.bake.body.surface,
-            poses: states.iter().map(pose).collect(),
+            poses,
             options: PictureOptions {
                 title: Some(format!("{} ({model}, seed {seed})", scene.name)),
                 ground: scene.stop.ground,
@@ -78,7 +73,7 @@ impl<'a> Shot<'a> {
 
     /// The bytes of the PNG.
     pub(crate) fn picture(&self) -> Result<Vec<u8>, PictureError> {
-        trajectory_picture(&self.subject(), &self.poses, &self.options)?.png()
+        trajectory_picture(&self.subject(), self.poses, &self.options)?.png()
     }
 }
 
@@ -95,7 +90,7 @@ impl Viewpoint {
 
 /// Writes the frames of a run into `folder`, as many as there are until Ctrl-C.
 pub(crate) fn film(shot: &Shot<'_>, folder: &Path, fps: f64, bars: &Bars) -> Result<Written> {
-    let film = Film::new(&shot.subject(), &shot.poses, &shot.options, fps)?;
+    let film = Film::new(&shot.subject(), shot.poses, &shot.options, fps)?;
     let mut written = Written {
         folder: folder.to_owned(),
         frames: 0,

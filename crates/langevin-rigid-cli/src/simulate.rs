@@ -1,27 +1,25 @@
 //! `langevin-rigid simulate`
 
 use std::io::Write;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Result, bail};
-use langevin_rigid::{
-    Ending, Hull, Integrator, Model, NoiseStream, State, StepError, Stepper, run,
-};
-use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::advance::advance;
-use langevin_rigid_formats::baking::{self, Baked};
+use langevin_rigid::{Hull, Integrator, Model};
+use langevin_rigid_formats::export::{self, ExportError, Options, Recording};
 use langevin_rigid_formats::scene::{self, Scene};
-use langevin_rigid_formats::{files, trajectory};
+use langevin_rigid_formats::trajectory::Trajectory;
+use langevin_rigid_formats::{baking, files};
 
 use crate::arguments::Simulate;
 use crate::bars::Bars;
 use crate::cache;
+use crate::falls::{Fall, check_start, drop_bodies};
 use crate::pictures::{self, Shot};
 use crate::summary::Summary;
 
 pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
+    export::check(&options.format)?;
     let mut scene = scene::find(&options.scene)?;
     apply(options, &mut scene);
     let folder = options
@@ -37,15 +35,22 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     check_start(&scene, &baked, &hull)?;
 
     let started = Instant::now();
-    let (states, ended) = drop_body(&scene, &stepper, &hull, bars);
+    let falls = drop_bodies(&scene, &baked, &stepper, &hull, options.bodies, bars);
     let run_seconds = started.elapsed().as_secs_f64();
 
-    let mut summary = Summary::new(&scene, &baked, &stepper, &states, ending_name(&ended));
+    let mut summary = Summary::new(&scene, &baked, &stepper, &falls);
     summary.seconds.bake = bake_seconds;
     summary.seconds.run = run_seconds;
-    summary.seconds.per_step = run_seconds / summary.steps.max(1) as f64;
-    let shot = Shot::new(options, &scene, &baked, &states);
-    write_all(&folder, &scene, &states, &shot, &mut summary)?;
+    let steps: usize = falls.iter().map(|fall| fall.states.len() - 1).sum();
+    summary.seconds.per_step = run_seconds / steps.max(1) as f64;
+    let trajectories: Vec<Trajectory> = falls.iter().map(Fall::trajectory).collect();
+    let shot = Shot::new(options, &scene, &baked, &trajectories[0].poses);
+    let run = Recording {
+        scene: &scene,
+        bake: &baked.bake,
+        trajectories: &trajectories,
+    };
+    write_all(options, &folder, &run, &shot, &mut summary)?;
     let film = match &options.frames {
         Some(folder) => Some(pictures::film(&shot, folder, options.fps, bars)?),
         None => None,
@@ -55,14 +60,30 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     if let Some(film) = film {
         film.tell(options.json)?;
     }
-    if let Err(error) = ended {
-        bail!(
-            "{error}\nthe {} states before it are in {}",
-            states.len(),
-            folder.display()
-        );
-    }
-    Ok(())
+    fail_if_diverged(&falls, &folder)
+}
+
+/// What a body did before it diverged is kept all the same.
+fn fail_if_diverged(falls: &[Fall], folder: &Path) -> Result<()> {
+    let mut diverged = falls
+        .iter()
+        .filter_map(|fall| Some((fall, fall.ended.as_ref().err()?)));
+    let Some((first, error)) = diverged.next() else {
+        return Ok(());
+    };
+    let which = match falls.len() {
+        1 => String::new(),
+        all => format!(
+            "{} of {all} bodies diverged, the first body {}: ",
+            1 + diverged.count(),
+            first.body
+        ),
+    };
+    bail!(
+        "{which}{error}\nthe {} states before it are in {}",
+        first.states.len(),
+        folder.display()
+    )
 }
 
 /// The command line's word is above the scene's.
@@ -85,98 +106,37 @@ pub(crate) fn set_model(model: Option<Model>, scene: &mut Scene) {
     }
 }
 
-pub(crate) fn check_start(scene: &Scene, baked: &Baked, hull: &Hull) -> Result<()> {
-    let Some(ground) = scene.stop.ground else {
-        return Ok(());
-    };
-    let lowest = hull.lowest(&scene.release);
-    if lowest <= ground {
-        bail!(
-            "the body already touches the ground at release (its lowest point is at {lowest:.4} m, \
-             the ground at {ground} m); release it higher"
-        );
-    }
-    let body = &baked.bake.body;
-    if scene.stop.time.is_none() && body.mass <= scene.fluid.density * body.volume {
-        bail!(
-            "the body is no heavier than the fluid and may never reach the ground; give the run a \
-             duration (`--duration S`, or `duration` under [run])"
-        );
-    }
-    Ok(())
-}
-
-/// All states of the run, the release first, and how it ended.
-fn drop_body(
-    scene: &Scene,
-    stepper: &Stepper,
-    hull: &Hull,
-    bars: &Bars,
-) -> (Vec<State>, Result<Ending, StepError>) {
-    let noise = NoiseStream {
-        seed: scene.seed,
-        body: 0,
-    };
-    let mut state = scene.release;
-    let mut states = vec![state];
-    let ended = run(
-        |state| advance(scene, stepper, state, &noise),
-        &mut state,
-        scene.time_step,
-        hull,
-        &scene.stop,
-        |state| {
-            states.push(*state);
-            if state.step % 4096 == 0 {
-                bars.report("simulating", fraction(scene, state));
-            }
-            if bars.cancelled() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        },
-    );
-    (states, ended)
-}
-
-fn fraction(scene: &Scene, state: &State) -> f64 {
-    let of_time = scene.stop.time.map_or(0.0, |end| state.time / end);
-    let of_way = scene.stop.ground.map_or(0.0, |ground| {
-        let start = scene.release.position[1];
-        (start - state.position[1]) / (start - ground)
-    });
-    of_time.max(of_way)
-}
-
-fn ending_name(ended: &Result<Ending, StepError>) -> &'static str {
-    match ended {
-        Ok(Ending::Ground) => "ground",
-        Ok(Ending::Time) => "time",
-        Ok(Ending::Stopped) => "interrupted",
-        Err(StepError::Diverged { .. }) => "diverged",
-    }
-}
-
 /// The trajectory first: it is what cannot be made again cheaply.
 fn write_all(
+    options: &Simulate,
     folder: &Path,
-    scene: &Scene,
-    states: &[State],
+    run: &Recording<'_>,
     shot: &Shot<'_>,
     summary: &mut Summary,
 ) -> Result<()> {
     let started = Instant::now();
-    files::write(
-        &folder.join("trajectory.csv"),
-        trajectory::csv(0, states).as_bytes(),
-    )?;
-    files::write(&folder.join("scene.toml"), resolved(scene)?.as_bytes())?;
+    let how = Options {
+        fps: options.fps,
+        ..Options::default()
+    };
+    for &format in &options.format {
+        match export::write(run, format, folder, &how) {
+            Ok(straying) => summary.wrote(format, straying, options.fps, &run.bake.body),
+            // The other files may still come out.
+            Err(error @ ExportError::Write(_)) => return Err(error.into()),
+            Err(error) => summary.warnings.push(format!("no {format}: {error}")),
+        }
+    }
+    let scene = resolved(run.scene)?;
+    files::write(&folder.join("scene.toml"), scene.as_bytes())?;
     summary.seconds.write = started.elapsed().as_secs_f64();
 
     let started = Instant::now();
     match shot.picture() {
-        Ok(png) => files::write(&folder.join("trajectory.png"), &png)?,
+        Ok(png) => {
+            files::write(&folder.join("trajectory.png"), &png)?;
+            summary.files.push("trajectory.png".into());
+        }
         Err(error) => summary.warnings.push(format!("no picture: {error}")),
     }
     summary.seconds.picture = started.elapsed().as_secs_f64();
@@ -208,9 +168,13 @@ fn tell(options: &Simulate, folder: &Path, summary: &Summary) -> Result<()> {
     } else {
         "baked"
     };
+    let first = match summary.bodies {
+        1 => String::new(),
+        bodies => format!("{bodies} bodies, the first "),
+    };
     writeln!(
         out,
-        "{}: {:.3} s in {} steps, ended by {}",
+        "{}: {first}{:.3} s in {} steps, ended by {}",
         summary.scene, summary.duration, summary.steps, summary.ending
     )?;
     writeln!(
@@ -226,9 +190,13 @@ fn tell(options: &Simulate, folder: &Path, summary: &Summary) -> Result<()> {
         summary.seconds.run,
         1e6 * summary.seconds.per_step
     )?;
+    for (format, straying) in &summary.straying {
+        writeln!(out, "  {format} within {straying} of the trajectory")?;
+    }
     writeln!(
         out,
-        "  wrote trajectory.csv, trajectory.png, summary.json and scene.toml to {}",
+        "  wrote {}, summary.json and scene.toml to {}",
+        summary.files.join(", "),
         folder.display()
     )?;
     Ok(())

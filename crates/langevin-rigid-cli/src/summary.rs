@@ -1,11 +1,16 @@
 //! What a run comes to, in numbers.
 
-use langevin_rigid::{State, Stepper};
+use std::collections::BTreeMap;
+
+use langevin_rigid::{Body, State, Stepper};
 use langevin_rigid_formats::baking::{Baked, reynolds};
+use langevin_rigid_formats::export::{Format, Straying};
 use langevin_rigid_formats::scene::Scene;
 use serde::Serialize;
 
-/// `summary.json`; SI units.
+use crate::falls::Fall;
+
+/// `summary.json`; SI units. Of several bodies the numbers are the first one's, unless they say otherwise.
 #[derive(Debug, Serialize)]
 pub(crate) struct Summary {
     pub(crate) scene: String,
@@ -15,6 +20,9 @@ pub(crate) struct Summary {
     pub(crate) integrator: String,
     pub(crate) turbulence: String,
     pub(crate) time_step: f64,
+    pub(crate) bodies: usize,
+    /// How many bodies ended how.
+    pub(crate) endings: BTreeMap<&'static str, usize>,
     pub(crate) steps: u64,
     pub(crate) duration: f64,
     /// Why the run ended: ground, time, interrupted or diverged.
@@ -30,6 +38,10 @@ pub(crate) struct Summary {
     pub(crate) terminal_speed: f64,
     pub(crate) energy: Energy,
     pub(crate) added_mass_error_estimate: f64,
+    /// How far each animation strays from the trajectory.
+    pub(crate) straying: BTreeMap<&'static str, Straying>,
+    /// What was written besides this and the scene.
+    pub(crate) files: Vec<String>,
     pub(crate) warnings: Vec<String>,
     pub(crate) bake_cached: bool,
     pub(crate) seconds: Seconds,
@@ -57,15 +69,14 @@ pub(crate) struct Seconds {
 }
 
 impl Summary {
-    /// From the states of a run, the first at release.
-    pub(crate) fn new(
-        scene: &Scene,
-        baked: &Baked,
-        stepper: &Stepper,
-        states: &[State],
-        ending: &'static str,
-    ) -> Self {
+    /// Of a run, which has one body or more.
+    pub(crate) fn new(scene: &Scene, baked: &Baked, stepper: &Stepper, falls: &[Fall]) -> Self {
         let body = &baked.bake.body;
+        let states = &falls[0].states;
+        let mut endings = BTreeMap::new();
+        for fall in falls {
+            *endings.entry(fall.ending()).or_default() += 1;
+        }
         let (first, last) = (
             states.first().unwrap_or(&scene.release),
             states.last().unwrap_or(&scene.release),
@@ -78,9 +89,11 @@ impl Summary {
             integrator: scene.settings.integrator.to_string(),
             turbulence: scene.settings.turbulence.to_string(),
             time_step: scene.time_step,
+            bodies: falls.len(),
+            endings,
             steps: last.step,
             duration: last.time,
-            ending,
+            ending: falls[0].ending(),
             triangles: body.surface.triangles.len(),
             mass: body.mass,
             volume: body.volume,
@@ -89,10 +102,30 @@ impl Summary {
             terminal_speed: terminal_speed(states),
             energy: energy(scene, baked, stepper, first, last),
             added_mass_error_estimate: baked.bake.error_estimate,
+            straying: BTreeMap::new(),
+            files: Vec::new(),
             warnings: baked.bake.warnings.clone(),
             bake_cached: baked.cached,
             seconds: Seconds::default(),
         }
+    }
+
+    /// Notes a file and how good it is.
+    pub(crate) fn wrote(
+        &mut self,
+        format: Format,
+        straying: Option<Straying>,
+        fps: f64,
+        body: &Body,
+    ) {
+        self.files.push(format.file_name().into());
+        let Some(straying) = straying else { return };
+        let warning = straying.warning(fps, 2.0 * body.half_extents[0]);
+        // Of two animations of one run the same is to be said.
+        if self.straying.is_empty() {
+            self.warnings.extend(warning);
+        }
+        self.straying.insert(format.name(), straying);
     }
 }
 

@@ -8,6 +8,7 @@
 mod fall;
 mod motion;
 mod scatter;
+mod side_by_side;
 mod statistics;
 
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -20,6 +21,7 @@ use crate::scene::Scene;
 pub use fall::{Fall, FallEnding, SAMPLES_PER_SECOND};
 pub use motion::{Motion, MotionTracker};
 pub use scatter::scattered_release;
+pub use side_by_side::side_by_side;
 pub use statistics::{Statistics, landings_csv};
 
 /// Drops `body` `runs` times as `scene` says, on all cores.

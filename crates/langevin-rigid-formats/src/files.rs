@@ -1,6 +1,7 @@
 //! Writing files whole or not at all.
 
-use std::io::Write;
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// A file that could not be written.
@@ -21,36 +22,53 @@ pub struct WriteError {
 /// # Errors
 /// [`WriteError`]; whatever was at `path` is then still there.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    replace(path, bytes).map_err(|error| WriteError {
+    write_with(path, |out| out.write_all(bytes))
+}
+
+/// [`write`] for what is better written as it comes than kept in memory.
+///
+/// # Errors
+/// [`WriteError`], from the system or from `content`; whatever was at `path` is then still there.
+pub fn write_with(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
+) -> Result<(), WriteError> {
+    replace(path, content).map_err(|error| WriteError {
         path: path.to_owned(),
         error,
     })
 }
 
-fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+fn replace(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
+) -> std::io::Result<()> {
     let folder = match path.parent() {
         Some(p) if !p.as_os_str().is_empty() => p,
         _ => Path::new("."),
     };
     std::fs::create_dir_all(folder)?;
-    let mut file = tempfile::Builder::new()
+    let temporary = tempfile::Builder::new()
         .prefix(".langevin-rigid-")
         .tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    set_readable(file.as_file())?;
-    file.persist(path).map_err(|e| e.error)?;
+    set_readable(temporary.as_file())?;
+    let (file, place) = temporary.into_parts();
+    let mut out = BufWriter::new(file);
+    content(&mut out)?;
+    out.flush()?;
+    place.persist(path).map_err(|e| e.error)?;
     Ok(())
 }
 
 /// Temporary files are private; results are as readable as any new file.
 #[cfg(unix)]
-fn set_readable(file: &std::fs::File) -> std::io::Result<()> {
+fn set_readable(file: &File) -> std::io::Result<()> {
     use std::os::unix::fs::PermissionsExt;
     file.set_permissions(std::fs::Permissions::from_mode(0o644))
 }
 
 #[cfg(not(unix))]
-fn set_readable(_: &std::fs::File) -> std::io::Result<()> {
+fn set_readable(_: &File) -> std::io::Result<()> {
     Ok(())
 }
 
@@ -80,5 +98,21 @@ mod tests {
             "{message}"
         );
         assert!(folder.path().is_dir());
+    }
+
+    #[test]
+    fn content_that_fails_leaves_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("half.txt");
+        let half = write_with(&path, |out| {
+            out.write_all(b"half")?;
+            Err(std::io::Error::other("the rest is missing"))
+        });
+        assert!(
+            half.unwrap_err()
+                .to_string()
+                .contains("the rest is missing")
+        );
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

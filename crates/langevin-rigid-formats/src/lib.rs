@@ -1,9 +1,10 @@
 //! Files of Langevin Rigid: what comes in (meshes, scenes) and what goes out (bakes, trajectories,
-//! ensembles, regimes, pictures).
+//! animations, ensembles, regimes, pictures).
 
 pub mod advance;
 pub mod baking;
 pub mod ensemble;
+pub mod export;
 pub mod files;
 pub mod mesh;
 pub mod motion;

@@ -1,39 +1,52 @@
-//! Trajectories as tables.
+//! Trajectories: what a run leaves of its bodies, as rows of a table.
 
-use std::fmt::Write;
+mod table;
 
 use langevin_rigid::State;
+use langevin_rigid::linalg::Vec3;
 
-/// The columns of a trajectory table: world frame; metres, seconds, radians.
-pub const CSV_HEADER: &str = "body,t,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz";
+use crate::motion::Pose;
+pub use table::{CSV_HEADER, TableError, csv, read_csv, write_csv};
 
-/// The rows of one body's states, in order, under [`CSV_HEADER`].
-///
-/// Numbers are written with as many digits as it takes to read back the same bits.
-///
-/// ```
-/// use langevin_rigid::State;
-/// let csv = langevin_rigid_formats::trajectory::csv(0, &[State::default()]);
-/// assert_eq!(csv.lines().nth(1), Some("0,0,0,0,0,0,0,0,1,0,0,0,0,0,0"));
-/// ```
-pub fn csv(body: u32, states: &[State]) -> String {
-    let mut table = String::with_capacity(64 + 220 * states.len());
-    table.push_str(CSV_HEADER);
-    table.push('\n');
-    for state in states {
-        let (v, w) = (state.world_velocity(), state.world_angular_velocity());
-        // Writing to a string cannot fail.
-        let _ = write!(table, "{body},{}", state.time);
-        for x in state
-            .position
-            .iter()
-            .chain(&state.orientation)
-            .chain(&v)
-            .chain(&w)
-        {
-            let _ = write!(table, ",{x}");
+/// Poses and velocities of one body in time order, world frame.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trajectory {
+    /// Number of the body, from 0.
+    pub body: u32,
+    /// Where it is (s, m; quaternion x, y, z, w).
+    pub poses: Vec<Pose>,
+    /// Velocity of the centre of mass at each pose (m/s).
+    pub velocities: Vec<Vec3>,
+    /// Angular velocity at each pose (rad/s).
+    pub angular_velocities: Vec<Vec3>,
+}
+
+impl Trajectory {
+    /// The trajectory through `states` of body number `body`.
+    pub fn new(body: u32, states: &[State]) -> Self {
+        Self {
+            body,
+            poses: states.iter().map(pose).collect(),
+            velocities: states.iter().map(State::world_velocity).collect(),
+            angular_velocities: states.iter().map(State::world_angular_velocity).collect(),
         }
-        table.push('\n');
     }
-    table
+
+    /// How many poses it has.
+    pub fn len(&self) -> usize {
+        self.poses.len()
+    }
+
+    /// Whether it has no pose.
+    pub fn is_empty(&self) -> bool {
+        self.poses.is_empty()
+    }
+}
+
+fn pose(state: &State) -> Pose {
+    Pose {
+        time: state.time,
+        position: state.position,
+        orientation: state.orientation,
+    }
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use langevin_rigid::State;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::picture::View;
-use langevin_rigid_formats::trajectory;
+use langevin_rigid_formats::trajectory::{Trajectory, csv};
 
 use crate::chart::{Chart, Curve};
 use crate::measures::{Axes, FIELDS, Field, Measures, Scale, norm};
@@ -388,7 +388,10 @@ fn draw(
     }
     for (reading, fall) in &runs {
         let name = file_name(shown, reading);
-        section.file(format!("{name}.csv"), trajectory::csv(0, &fall.states));
+        section.file(
+            format!("{name}.csv"),
+            csv(&Trajectory::new(0, &fall.states)),
+        );
     }
     Ok(())
 }

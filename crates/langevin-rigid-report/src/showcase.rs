@@ -3,7 +3,7 @@
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::picture::View;
 use langevin_rigid_formats::scene::BUILT_IN;
-use langevin_rigid_formats::trajectory;
+use langevin_rigid_formats::trajectory::{Trajectory, csv};
 
 use crate::chart::escape;
 use crate::measures::{Axes, Measures, Scale};
@@ -51,7 +51,10 @@ pub(crate) fn section(options: &Options, progress: &dyn Progress) -> Result<Sect
             escape(&setting.scene.description)
         );
         figures.push(section.picture(name, &picture, &caption)?);
-        section.file(format!("{name}.csv"), trajectory::csv(0, &fall.states));
+        section.file(
+            format!("{name}.csv"),
+            csv(&Trajectory::new(0, &fall.states)),
+        );
     }
     section.row(&figures);
     Ok(section)

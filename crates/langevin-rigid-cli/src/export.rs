@@ -1,0 +1,93 @@
+//! `langevin-rigid export`
+
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use langevin_rigid_formats::export::{self, Format, Options, Recording, Up};
+use langevin_rigid_formats::scene::{self, Scene};
+use langevin_rigid_formats::trajectory::{Trajectory, read_csv};
+use serde_json::Value;
+
+use crate::arguments::Export;
+use crate::bars::Bars;
+use crate::cache;
+
+pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
+    export::check(&options.format)?;
+    let folder = options.out.as_deref().unwrap_or(&options.run);
+    keep_the_table(options, folder)?;
+    let trajectories = trajectories(&options.run)?;
+    let scene = scene_of(&options.run)?;
+    let baked = cache::bake(&scene, bars)?;
+    bars.clear();
+    let run = Recording {
+        scene: &scene,
+        bake: &baked.bake,
+        trajectories: &trajectories,
+    };
+    let how = Options {
+        fps: options.fps,
+        up: options.up,
+    };
+    if options.up == Up::Z && options.format.contains(&Format::Glb) {
+        eprintln!("note: glb has +Y up by definition; programs turn it to their own axes");
+    }
+    let mut out = std::io::stdout().lock();
+    for &format in &options.format {
+        let straying = export::write(&run, format, folder, &how)?;
+        let path = folder.join(format.file_name());
+        write!(out, "wrote {}", path.display())?;
+        if let Some(straying) = straying {
+            write!(
+                out,
+                ": {} frames a second, within {straying} of the trajectory",
+                options.fps
+            )?;
+            let length = 2.0 * baked.bake.body.half_extents[0];
+            if let Some(warning) = straying.warning(options.fps, length) {
+                eprintln!("warning: {format}: {warning}");
+            }
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// The table of a run is what everything else is made from.
+fn keep_the_table(options: &Export, folder: &Path) -> Result<()> {
+    let same = || folder.canonicalize().ok() == options.run.canonicalize().ok();
+    if options.format.contains(&Format::Csv) && options.up != Up::Y && same() {
+        bail!(
+            "csv with another axis up would take the place of the run's own table, {}; give another \
+             folder with --out",
+            options.run.join(Format::Csv.file_name()).display()
+        );
+    }
+    Ok(())
+}
+
+fn trajectories(run: &Path) -> Result<Vec<Trajectory>> {
+    let path = run.join(Format::Csv.file_name());
+    let table = std::fs::read_to_string(&path).with_context(|| {
+        format!(
+            "cannot read `{}`, the table that exports are made from; give a folder that `langevin-rigid \
+             simulate` wrote with csv among its formats",
+            path.display()
+        )
+    })?;
+    read_csv(&table).with_context(|| path.display().to_string())
+}
+
+/// The scene of a run, by the name it had.
+fn scene_of(run: &Path) -> Result<Scene> {
+    let path = run.join("scene.toml");
+    let scene = scene::find(&path.display().to_string())?;
+    let summary = std::fs::read(run.join("summary.json")).ok();
+    let summary = summary.and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
+    let name = summary.as_ref().and_then(|s| s["scene"].as_str());
+    Ok(Scene {
+        name: name.map_or(scene.name.clone(), str::to_owned),
+        ..scene
+    })
+}

@@ -1,0 +1,192 @@
+//! Runs for other programs: tables for analysis, animations for pictures.
+//!
+//! A [`Recording`] is a run: the scene, its bake, and where every body went. [`write`] puts it into a folder
+//! in a [`Format`]. Tables have every step. Animations have frames at equal times, between which programs
+//! interpolate; [`Straying`] says how far that takes the bodies from where they were.
+
+mod animation;
+mod format;
+mod frames;
+mod gltf;
+mod npz;
+mod parameters;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod shading;
+mod up;
+mod usd;
+
+use std::fs::File;
+use std::io::{self, BufWriter};
+use std::path::Path;
+
+use langevin_rigid::Bake;
+
+pub use animation::Straying;
+pub use format::{Format, UnknownFormat};
+pub use up::{UnknownUp, Up};
+
+use crate::files::{self, WriteError};
+use crate::motion::MotionError;
+use crate::scene::Scene;
+use crate::trajectory::{Trajectory, write_csv};
+
+/// A run: the bodies of a scene and where they went.
+#[derive(Debug, Clone, Copy)]
+pub struct Recording<'a> {
+    /// The scene as it was run.
+    pub scene: &'a Scene,
+    /// Its bake, of which surface and mass properties are shown.
+    pub bake: &'a Bake,
+    /// One for each body; all have the same shape.
+    pub trajectories: &'a [Trajectory],
+}
+
+/// How a recording is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Frames a second of animations.
+    pub fps: f64,
+    /// The axis that points up in tables and USD; glTF has +Y by definition.
+    pub up: Up,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            fps: 60.0,
+            up: Up::Y,
+        }
+    }
+}
+
+/// Refuses what this build cannot write, before there is anything to lose.
+///
+/// # Errors
+/// [`ExportError::NotBuilt`].
+pub fn check(formats: &[Format]) -> Result<(), ExportError> {
+    match formats.iter().find(|format| !format.built()) {
+        Some(&format) => Err(ExportError::NotBuilt { format }),
+        None => Ok(()),
+    }
+}
+
+/// Why a recording could not be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The file could not be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A trajectory cannot be shown.
+    #[error("body {body}: {error}")]
+    Motion {
+        /// Number of the body.
+        body: u32,
+        /// What is wrong with its trajectory.
+        error: MotionError,
+    },
+    /// There is no body.
+    #[error("there is no trajectory to export: run the scene again")]
+    NoBodies,
+    /// The run cannot be divided into frames.
+    #[error(
+        "{fps} frames a second of {duration} s make no animation: ask for a positive rate and at most \
+         {most} frames"
+    )]
+    FrameRate {
+        /// Frames a second asked for.
+        fps: f64,
+        /// Duration of the run (s).
+        duration: f64,
+        /// The largest number of frames.
+        most: usize,
+    },
+    /// More than the format holds.
+    #[error("the animation takes {bytes} bytes, a GLB file holds 4 GiB: lower the frames a second")]
+    TooLarge {
+        /// Its size.
+        bytes: u64,
+    },
+    /// The format was left out of this build.
+    #[error(
+        "this build cannot write {format}: build it with `cargo build --release --features {format}`"
+    )]
+    NotBuilt {
+        /// The format.
+        format: Format,
+    },
+}
+
+/// Writes a recording into `folder` as [`Format::file_name`] says; of an animation gives how far it strays.
+///
+/// ```
+/// use langevin_rigid::{NoiseStream, State};
+/// use langevin_rigid_formats::export::{Format, Options, Recording, write};
+/// use langevin_rigid_formats::{advance, baking, scene::Scene, trajectory::Trajectory};
+/// let scene = Scene::parse("ball", "ball.toml", r#"
+///     fluid.preset = "water"
+///     run = { time_step = 0.002, duration = 0.1, model = "kirchhoff" }
+///     [body]
+///     shape = "ellipsoid"
+///     semi_axes = [0.01, 0.01, 0.01]
+///     triangles = 80
+///     density = 1100.0
+/// "#)?;
+/// let bake = baking::bake_scene(&scene, None, &())?.bake;
+/// let stepper = baking::stepper(&scene, &bake)?;
+/// let mut states = vec![scene.release];
+/// for _ in 0..50 {
+///     let mut state = states[states.len() - 1];
+///     advance::advance(&scene, &stepper, &mut state, &NoiseStream { seed: 0, body: 0 })?;
+///     states.push(state);
+/// }
+/// let fall = [Trajectory::new(0, &states)];
+/// let recording = Recording { scene: &scene, bake: &bake, trajectories: &fall };
+/// let folder = tempfile::tempdir()?;
+/// let straying = write(&recording, Format::Glb, folder.path(), &Options::default())?;
+/// assert!(straying.is_some_and(|s| s.position < 2e-5)); // of 9 mm fallen
+/// assert!(folder.path().join("trajectory.glb").is_file());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`ExportError`]; no file is left half written.
+pub fn write(
+    recording: &Recording<'_>,
+    format: Format,
+    folder: &Path,
+    options: &Options,
+) -> Result<Option<Straying>, ExportError> {
+    let path = folder.join(format.file_name());
+    let trajectories = || options.up.of(recording.trajectories);
+    match format {
+        Format::Csv => table(&path, |out| write_csv(&trajectories(), out)),
+        Format::Npz => table(&path, |out| npz::write(&trajectories(), out)),
+        #[cfg(feature = "parquet")]
+        Format::Parquet => table(&path, |out| parquet::write(&trajectories(), out)),
+        #[cfg(not(feature = "parquet"))]
+        Format::Parquet => Err(ExportError::NotBuilt { format }),
+        Format::Glb => {
+            let (bytes, straying) = gltf::glb(recording, options.fps)?;
+            files::write(&path, &bytes)?;
+            Ok(Some(straying))
+        }
+        Format::Usd => {
+            let (layer, straying) = usd::Layer::new(recording, options)?;
+            files::write_with(&path, |out| layer.write(out))?;
+            Ok(Some(straying))
+        }
+    }
+}
+
+fn table(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<Option<Straying>, ExportError> {
+    files::write_with(path, content)?;
+    Ok(None)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,270 @@
+//! Motion at frames, and how far what programs make of it strays from the motion itself.
+
+use std::fmt;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::ExportError;
+use super::frames::Frames;
+use crate::motion::{Motion, Pose, arc, half_angle, line, nearer};
+use crate::trajectory::Trajectory;
+
+/// The largest distance and turn between a body of a trajectory and the same in an animation of it.
+///
+/// Between frames positions go on straight lines and orientations on the shorter arc (slerp), as glTF and
+/// USD have it. Compared at every pose of the trajectory, the rounding of the file's numbers included.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Straying {
+    /// Distance (m).
+    pub position: f64,
+    /// Angle (rad).
+    pub rotation: f64,
+}
+
+/// Share of the body's length, and angle (rad), beyond which the motion between frames is another one:
+/// most often the body turns by more than a right angle from frame to frame.
+const LARGE: Straying = Straying {
+    position: 0.2,
+    rotation: 0.35,
+};
+
+impl Straying {
+    /// What to do about an animation of `fps` frames a second that strays too far for a body of some
+    /// `length` (m), if it does.
+    pub fn warning(&self, fps: f64, length: f64) -> Option<String> {
+        let excess =
+            (self.position / (LARGE.position * length)).max(self.rotation / LARGE.rotation);
+        // Both errors go with the square of the time between frames.
+        let enough = fps * excess.sqrt().ceil();
+        (excess > 1.0).then(|| {
+            format!(
+                "at {fps} frames a second the animation strays up to {self} from the trajectory \
+                 between frames: use --fps {enough} or more"
+            )
+        })
+    }
+
+    fn worse(self, other: Self) -> Self {
+        Self {
+            position: self.position.max(other.position),
+            rotation: self.rotation.max(other.rotation),
+        }
+    }
+}
+
+impl fmt::Display for Straying {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (millimetres, degrees) = (1e3 * self.position, self.rotation.to_degrees());
+        write!(f, "{millimetres:.2} mm and {degrees:.2} degrees")
+    }
+}
+
+/// All bodies at frames.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Animation {
+    /// One for each body.
+    pub(super) tracks: Vec<Track>,
+}
+
+/// One body at the frames until its own end, where it stays.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Track {
+    /// Number of the body.
+    pub(super) body: u32,
+    /// Numbers of its frames, whole but for the last.
+    pub(super) numbers: Vec<f64>,
+    /// Times of its frames, as the file has them (s).
+    pub(super) times: Vec<f64>,
+    /// Position at each frame, at least one (m).
+    pub(super) positions: Vec<[f64; 3]>,
+    /// Orientation at each frame, unit quaternions, neighbours on the same side.
+    pub(super) orientations: Vec<[f64; 4]>,
+}
+
+impl Animation {
+    /// The trajectories at `frames`, whose times a file rounds by `rounded_time`.
+    pub(super) fn new(
+        trajectories: &[Trajectory],
+        frames: Frames,
+        rounded_time: impl Fn(f64) -> f64 + Sync,
+    ) -> Result<Self, ExportError> {
+        let tracks: Result<Vec<Track>, ExportError> = trajectories
+            .par_iter()
+            .map(|trajectory| {
+                let motion =
+                    Motion::new(&trajectory.poses).map_err(|error| ExportError::Motion {
+                        body: trajectory.body,
+                        error,
+                    })?;
+                let numbers = frames.until(motion.end());
+                let time = |number: &f64| rounded_time(frames.time(*number));
+                let times = numbers.iter().map(time).collect();
+                Ok(Track::new(trajectory.body, &motion, numbers, times))
+            })
+            .collect();
+        Ok(Self { tracks: tracks? })
+    }
+
+    /// The same with each number as a file has it.
+    pub(super) fn rounded(
+        mut self,
+        position: impl Fn(f64) -> f64 + Sync,
+        orientation: impl Fn(f64) -> f64 + Sync,
+    ) -> Self {
+        self.tracks.par_iter_mut().for_each(|track| {
+            for x in track.positions.as_flattened_mut() {
+                *x = position(*x);
+            }
+            for x in track.orientations.as_flattened_mut() {
+                *x = orientation(*x);
+            }
+        });
+        self
+    }
+
+    /// How far it strays from the trajectories it was made of.
+    pub(super) fn straying(&self, trajectories: &[Trajectory]) -> Straying {
+        self.tracks
+            .par_iter()
+            .zip(trajectories)
+            .map(|(track, trajectory)| track.straying(&trajectory.poses))
+            .reduce(Straying::default, Straying::worse)
+    }
+}
+
+impl Track {
+    fn new(body: u32, motion: &Motion<'_>, numbers: Vec<f64>, times: Vec<f64>) -> Self {
+        let poses: Vec<Pose> = times.iter().map(|time| motion.at(*time)).collect();
+        let mut orientations: Vec<[f64; 4]> = Vec::with_capacity(poses.len());
+        for pose in &poses {
+            let last = orientations.last().copied();
+            orientations.push(last.map_or(pose.orientation, |q| nearer(q, pose.orientation)));
+        }
+        Self {
+            body,
+            numbers,
+            times,
+            positions: poses.iter().map(|pose| pose.position).collect(),
+            orientations,
+        }
+    }
+
+    /// What a program shows at `time`, given the number of frames that are not after it.
+    fn shown(&self, passed: usize, time: f64) -> ([f64; 3], [f64; 4]) {
+        let last = self.times.len() - 1;
+        let (a, b) = (passed.saturating_sub(1), passed.min(last));
+        let part = if a < b {
+            (time - self.times[a]) / (self.times[b] - self.times[a])
+        } else {
+            0.0
+        };
+        (
+            line(self.positions[a], self.positions[b], part),
+            arc(self.orientations[a], self.orientations[b], part),
+        )
+    }
+
+    fn straying(&self, poses: &[Pose]) -> Straying {
+        let mut worst = Straying::default();
+        let mut passed = 0;
+        for pose in poses {
+            while passed < self.times.len() && self.times[passed] <= pose.time {
+                passed += 1;
+            }
+            let (position, orientation) = self.shown(passed, pose.time);
+            worst = worst.worse(Straying {
+                position: distance(position, pose.position),
+                rotation: angle(orientation, pose.orientation),
+            });
+        }
+        worst
+    }
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let squares: f64 = a.iter().zip(&b).map(|(x, y)| (x - y) * (x - y)).sum();
+    squares.sqrt()
+}
+
+/// Angle of the turn from one orientation to another, the first of unit length (rad).
+fn angle(a: [f64; 4], b: [f64; 4]) -> f64 {
+    let length = b.iter().map(|x| x * x).sum::<f64>().sqrt();
+    2.0 * half_angle(a, nearer(a, b.map(|x| x / length)))
+}
+
+#[cfg(test)]
+mod tests {
+    use langevin_rigid::State;
+    use langevin_rigid::linalg::quat_from_rotation_vector;
+
+    use super::*;
+
+    /// A throw upwards and an even turn about z, at a thousand steps a second.
+    fn thrown(spin: f64) -> Vec<Trajectory> {
+        let state = |step: u32| {
+            let time = 1e-3 * f64::from(step);
+            State {
+                time,
+                position: [2.0 * time, 3.0 * time - 4.905 * time * time, 0.0],
+                orientation: quat_from_rotation_vector([0.0, 0.0, spin * time]),
+                ..State::default()
+            }
+        };
+        let states: Vec<State> = (0..=1000).map(state).collect();
+        vec![Trajectory::new(0, &states)]
+    }
+
+    fn animation(trajectories: &[Trajectory], fps: f64) -> Animation {
+        let frames = Frames::of(trajectories, fps).unwrap();
+        Animation::new(trajectories, frames, |t| t).unwrap()
+    }
+
+    fn straying(spin: f64, fps: u32) -> Straying {
+        let trajectories = thrown(spin);
+        animation(&trajectories, f64::from(fps)).straying(&trajectories)
+    }
+
+    #[test]
+    fn a_parabola_strays_by_its_sagitta_and_an_even_turn_not_at_all() {
+        for fps in [10, 20, 50] {
+            let Straying { position, rotation } = straying(7.0, fps);
+            // The chord of g t^2 / 2 over h is g h^2 / 8 away.
+            let sagitta = 9.81 / f64::from(8 * fps * fps);
+            assert!((position / sagitta - 1.0).abs() < 1e-9, "{position}");
+            assert!(rotation < 1e-14, "{rotation}");
+        }
+    }
+
+    #[test]
+    fn turns_of_more_than_half_a_revolution_a_frame_show() {
+        // 200 rad/s at 60 frames a second: 3.33 rad a frame go the other way round.
+        assert!(straying(200.0, 60).rotation > 1.5);
+        assert!(straying(200.0, 125).rotation < 1e-12);
+    }
+
+    #[test]
+    fn a_body_that_ends_sooner_has_its_own_last_frame() {
+        let mut trajectories = thrown(1.0);
+        let mut short = trajectories[0].clone();
+        short.poses.truncate(251);
+        trajectories.push(short);
+        let animation = animation(&trajectories, 10.0);
+        assert_eq!(animation.tracks[0].numbers.len(), 11);
+        let track = &animation.tracks[1];
+        assert_eq!(track.numbers, [0.0, 1.0, 2.0, 2.5]);
+        assert_eq!(track.positions[3], trajectories[1].poses[250].position);
+        let whole = animation.straying(&trajectories).position;
+        assert!((whole / 0.012_262_5 - 1.0).abs() < 1e-9, "{whole}");
+    }
+
+    #[test]
+    fn rounding_is_part_of_it() {
+        let trajectories = thrown(1.0);
+        let animation = animation(&trajectories, 1000.0);
+        assert!(animation.straying(&trajectories).position < 1e-14);
+        let coarse = animation.rounded(|x| (100.0 * x).round() / 100.0, |q| q);
+        let position = coarse.straying(&trajectories).position;
+        assert!((0.004..0.0071).contains(&position), "{position}");
+    }
+}

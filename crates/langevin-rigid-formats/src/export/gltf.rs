@@ -1,0 +1,251 @@
+//! glTF 2.0 in one binary file: +Y up, metres, seconds, x y z w.
+//!
+//! One mesh that all bodies share, one node a body, one animation whose channels share their times.
+
+use std::collections::HashMap;
+
+use serde_json::{Value, json};
+
+use super::animation::{Animation, Track};
+use super::frames::Frames;
+use super::parameters::{KEY, of_body, of_run};
+use super::shading::corner_normals;
+use super::{ExportError, Recording, Straying, Up};
+
+/// Frames that single precision can tell apart.
+const SINGLES: usize = 1 << 24;
+
+const FLOAT: u32 = 5126;
+const UNSIGNED_INT: u32 = 5125;
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+
+/// The bytes of the file, and how far the animation strays.
+pub(super) fn glb(recording: &Recording<'_>, fps: f64) -> Result<(Vec<u8>, Straying), ExportError> {
+    let frames = Frames::of(recording.trajectories, fps)?;
+    let animation = Animation::new(recording.trajectories, frames, single)?.rounded(single, single);
+    let apart = |track: &Track| track.times.windows(2).all(|pair| pair[0] < pair[1]);
+    if !animation.tracks.iter().all(apart) {
+        return Err(frames.too_many(SINGLES));
+    }
+    let straying = animation.straying(recording.trajectories);
+    let mut file = File::default();
+    let mesh = file.mesh(recording);
+    let animations = file.animation(&recording.scene.name, &animation);
+    let document = json!({
+        "asset": { "version": "2.0", "generator": concat!("Langevin Rigid ", env!("CARGO_PKG_VERSION")) },
+        "scene": 0,
+        "scenes": [{
+            "name": recording.scene.name,
+            "nodes": (0..animation.tracks.len()).collect::<Vec<_>>(),
+            "extras": { KEY: of_run(recording, Up::Y, fps, straying) },
+        }],
+        "nodes": nodes(&recording.scene.name, &animation.tracks),
+        "meshes": [mesh],
+        "materials": [{
+            "name": "matt",
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [0.55, 0.42, 0.16, 1.0],
+                "metallicFactor": 0.0,
+                "roughnessFactor": 0.8,
+            },
+        }],
+        "animations": [animations],
+        "accessors": file.accessors,
+        "bufferViews": file.views,
+        "buffers": [{ "byteLength": file.bytes.len() }],
+    });
+    Ok((container(&document, &file.bytes)?, straying))
+}
+
+/// To single precision and back.
+fn single(x: f64) -> f64 {
+    f64::from(x as f32)
+}
+
+fn nodes(name: &str, tracks: &[Track]) -> Vec<Value> {
+    let node = |track: &Track| {
+        let name = match tracks.len() {
+            1 => name.to_owned(),
+            _ => format!("{name}.{:04}", track.body),
+        };
+        json!({
+            "name": name,
+            "mesh": 0,
+            "translation": track.positions[0],
+            "rotation": track.orientations[0],
+            "extras": { KEY: { "body": track.body } },
+        })
+    };
+    tracks.iter().map(node).collect()
+}
+
+/// What the document points into.
+#[derive(Default)]
+struct File {
+    bytes: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+}
+
+impl File {
+    fn mesh(&mut self, recording: &Recording<'_>) -> Value {
+        let surface = &recording.bake.body.surface;
+        let corners = split_at_edges(&surface.vertices, &surface.triangles);
+        let positions = self.vectors(&corners.positions, Some(ARRAY_BUFFER));
+        self.bounds(positions, &corners.positions);
+        let normals = self.vectors(&corners.normals, Some(ARRAY_BUFFER));
+        let indices = self.indices(&corners.triangles);
+        json!({
+            "name": recording.scene.name,
+            "primitives": [{
+                "attributes": { "POSITION": positions, "NORMAL": normals },
+                "indices": indices,
+                "material": 0,
+            }],
+            "extras": { KEY: of_body(recording) },
+        })
+    }
+
+    fn animation(&mut self, name: &str, animation: &Animation) -> Value {
+        let mut shared = HashMap::new();
+        let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+        for (node, track) in animation.tracks.iter().enumerate() {
+            let input = self.times(track, &mut shared);
+            let outputs = [
+                ("translation", self.vectors(&track.positions, None)),
+                ("rotation", self.vectors(&track.orientations, None)),
+            ];
+            for (path, output) in outputs {
+                channels.push(json!({
+                    "sampler": samplers.len(), "target": { "node": node, "path": path },
+                }));
+                samplers.push(json!({
+                    "input": input, "output": output, "interpolation": "LINEAR",
+                }));
+            }
+        }
+        json!({ "name": name, "samplers": samplers, "channels": channels })
+    }
+
+    /// Bodies that end at the same frame share their times.
+    fn times(&mut self, track: &Track, shared: &mut HashMap<u64, usize>) -> usize {
+        let end = track.times[track.times.len() - 1].to_bits();
+        *shared.entry(end).or_insert_with(|| {
+            let times: Vec<[f64; 1]> = track.times.iter().map(|t| [*t]).collect();
+            let accessor = self.vectors(&times, None);
+            self.bounds(accessor, &times);
+            accessor
+        })
+    }
+
+    /// An accessor of single-precision numbers, with its view.
+    fn vectors<const N: usize>(&mut self, vectors: &[[f64; N]], target: Option<u32>) -> usize {
+        let start = self.bytes.len();
+        self.bytes.reserve(4 * N * vectors.len());
+        for x in vectors.as_flattened() {
+            self.bytes.extend((*x as f32).to_le_bytes());
+        }
+        self.view(start, target);
+        let kind = match N {
+            1 => "SCALAR",
+            3 => "VEC3",
+            _ => "VEC4",
+        };
+        self.accessor(FLOAT, vectors.len(), kind)
+    }
+
+    fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
+        let start = self.bytes.len();
+        for v in triangles.as_flattened() {
+            self.bytes.extend(v.to_le_bytes());
+        }
+        self.view(start, Some(ELEMENT_ARRAY_BUFFER));
+        self.accessor(UNSIGNED_INT, 3 * triangles.len(), "SCALAR")
+    }
+
+    fn view(&mut self, start: usize, target: Option<u32>) {
+        let mut view = json!({
+            "buffer": 0, "byteOffset": start, "byteLength": self.bytes.len() - start,
+        });
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
+        self.views.push(view);
+    }
+
+    /// An accessor of all of the last view.
+    fn accessor(&mut self, component: u32, count: usize, kind: &str) -> usize {
+        self.accessors.push(json!({
+            "bufferView": self.views.len() - 1,
+            "componentType": component,
+            "count": count,
+            "type": kind,
+        }));
+        self.accessors.len() - 1
+    }
+
+    /// Says between which numbers an accessor's are, as positions and times must.
+    fn bounds<const N: usize>(&mut self, accessor: usize, vectors: &[[f64; N]]) {
+        let bound = |f: fn(f64, f64) -> f64, start: f64| -> Vec<f64> {
+            let component = |i: usize| vectors.iter().map(|v| single(v[i])).fold(start, f);
+            (0..N).map(component).collect()
+        };
+        self.accessors[accessor]["min"] = bound(f64::min, f64::INFINITY).into();
+        self.accessors[accessor]["max"] = bound(f64::max, f64::NEG_INFINITY).into();
+    }
+}
+
+/// A mesh with a vertex for each normal of a vertex.
+struct Corners {
+    positions: Vec<[f64; 3]>,
+    normals: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+fn split_at_edges(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Corners {
+    let mut known: HashMap<(u32, [u32; 3]), u32> = HashMap::new();
+    let mut corners = Corners {
+        positions: Vec::new(),
+        normals: Vec::new(),
+        triangles: Vec::with_capacity(triangles.len()),
+    };
+    for (triangle, normals) in triangles.iter().zip(corner_normals(vertices, triangles)) {
+        corners.triangles.push(std::array::from_fn(|k| {
+            let key = (triangle[k], normals[k].map(|x| (x as f32).to_bits()));
+            *known.entry(key).or_insert_with(|| {
+                corners.positions.push(vertices[triangle[k] as usize]);
+                corners.normals.push(normals[k]);
+                corners.positions.len() as u32 - 1
+            })
+        }));
+    }
+    corners
+}
+
+/// Header, JSON chunk and binary chunk.
+fn container(document: &Value, binary: &[u8]) -> Result<Vec<u8>, ExportError> {
+    let mut json = document.to_string().into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let binary_length = binary.len().next_multiple_of(4);
+    let total = 12 + 8 + json.len() + 8 + binary_length;
+    let length = |n: usize| {
+        u32::try_from(n)
+            .map(u32::to_le_bytes)
+            .map_err(|_| ExportError::TooLarge {
+                bytes: total as u64,
+            })
+    };
+    let mut bytes = Vec::with_capacity(total);
+    bytes.extend(b"glTF");
+    bytes.extend(2u32.to_le_bytes());
+    bytes.extend(length(total)?);
+    bytes.extend(length(json.len())?);
+    bytes.extend(b"JSON");
+    bytes.extend(json);
+    bytes.extend(length(binary_length)?);
+    bytes.extend(b"BIN\0");
+    bytes.extend(binary);
+    bytes.resize(total, 0);
+    Ok(bytes)
+}

@@ -1,0 +1,71 @@
+//! NumPy arrays in one file, each with a row for each pose of each body.
+
+use std::io::{self, Seek, Write};
+
+use langevin_rigid::linalg::Vec3;
+use npyz::{AutoSerialize, WriterBuilder, npz::file_name_from_array_name};
+use zip::CompressionMethod::Stored;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+use crate::motion::Pose;
+use crate::trajectory::Trajectory;
+
+/// Bytes of an array beyond which the archive needs its 64-bit form.
+const LARGE: u64 = 1 << 31;
+
+/// The arrays `body` (n), `t` (n), `position` (n, 3), `orientation` (n, 4), `velocity` and
+/// `angular_velocity` (n, 3).
+pub(super) fn write(trajectories: &[Trajectory], out: impl Write + Seek) -> io::Result<()> {
+    let rows = trajectories.iter().map(|t| t.len() as u64).sum();
+    let mut file = Archive {
+        zip: ZipWriter::new(out),
+        rows,
+    };
+    let bodies = trajectories
+        .iter()
+        .flat_map(|t| std::iter::repeat_n(t.body, t.len()));
+    file.array("body", 1, bodies)?;
+    let poses = || trajectories.iter().flat_map(|t| &t.poses);
+    file.array("t", 1, poses().map(|p| p.time))?;
+    let flat = |of: fn(&Pose) -> &[f64]| poses().flat_map(of).copied();
+    file.array("position", 3, flat(|p| &p.position))?;
+    file.array("orientation", 4, flat(|p| &p.orientation))?;
+    let flat = |of: fn(&Trajectory) -> &[Vec3]| {
+        let vectors = trajectories.iter().flat_map(of);
+        vectors.flatten().copied()
+    };
+    file.array("velocity", 3, flat(|t| &t.velocities))?;
+    file.array("angular_velocity", 3, flat(|t| &t.angular_velocities))?;
+    file.zip.finish()?;
+    Ok(())
+}
+
+struct Archive<W: Write + Seek> {
+    zip: ZipWriter<W>,
+    rows: u64,
+}
+
+impl<W: Write + Seek> Archive<W> {
+    /// A matrix row by row; a vector has one column.
+    fn array<T: AutoSerialize>(
+        &mut self,
+        name: &str,
+        columns: u64,
+        values: impl Iterator<Item = T>,
+    ) -> io::Result<()> {
+        let options = SimpleFileOptions::default()
+            .compression_method(Stored)
+            .large_file(8 * columns * self.rows > LARGE);
+        self.zip
+            .start_file(file_name_from_array_name(name), options)?;
+        let shape = [self.rows, columns];
+        let mut array = npyz::WriteOptions::new()
+            .default_dtype()
+            .shape(if columns == 1 { &shape[..1] } else { &shape })
+            .writer(&mut self.zip)
+            .begin_nd()?;
+        array.extend(values)?;
+        array.finish()
+    }
+}

@@ -1,0 +1,62 @@
+//! What animations say of a run besides what they show.
+
+use serde_json::{Map, Value, json};
+
+use super::{Recording, Straying, Up};
+
+/// The key under which all of it stands.
+pub(super) const KEY: &str = "langevin_rigid";
+
+/// The run: model, noise, fluid, and what the animation makes of it.
+pub(super) fn of_run(
+    recording: &Recording<'_>,
+    up: Up,
+    fps: f64,
+    straying: Straying,
+) -> Map<String, Value> {
+    let scene = recording.scene;
+    object(json!({
+        "scene": scene.name,
+        "version": env!("CARGO_PKG_VERSION"),
+        "model": scene.settings.model.to_string(),
+        "integrator": scene.settings.integrator.to_string(),
+        "turbulence": scene.settings.turbulence.to_string(),
+        "seed": scene.seed.to_string(),
+        "bodies": recording.trajectories.len(),
+        "time_step_s": scene.time_step,
+        "gravity_m_s2": up.vector(scene.settings.gravity),
+        "fluid_density_kg_m3": scene.fluid.density,
+        "fluid_kinematic_viscosity_m2_s": scene.fluid.viscosity,
+        "fluid_velocity_m_s": up.vector(scene.fluid.velocity),
+        "frames_per_second": fps,
+        "largest_position_error_m": straying.position,
+        "largest_rotation_error_rad": straying.rotation,
+    }))
+}
+
+/// The body, in its own frame; matrices row by row, linear part first.
+pub(super) fn of_body(recording: &Recording<'_>) -> Map<String, Value> {
+    let (body, density) = (&recording.bake.body, recording.scene.fluid.density);
+    let added_mass: Vec<f64> = body
+        .added_mass
+        .as_flattened()
+        .iter()
+        .map(|a| density * a)
+        .collect();
+    object(json!({
+        "mass_kg": body.mass,
+        "volume_m3": body.volume,
+        "inertia_kg_m2": body.inertia.as_flattened(),
+        "centre_of_buoyancy_m": body.centre_of_buoyancy,
+        "half_extents_m": body.half_extents,
+        "added_mass_kg": added_mass,
+        "added_mass_error_estimate": recording.bake.error_estimate,
+    }))
+}
+
+fn object(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
+}

@@ -1,0 +1,95 @@
+//! Normals that show a surface as it is: smooth where it bends, sharp at its edges.
+
+use langevin_rigid::linalg::Vec3;
+
+/// Cosine of the largest angle between facets that are shaded as one surface: 30 degrees.
+const SMOOTH: f64 = 0.866_025_403_784_438_6;
+
+/// The unit normal at each corner of each triangle: the mean of the facets around the vertex that bend away
+/// from this one by less than 30 degrees, weighted by area.
+pub(super) fn corner_normals(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[Vec3; 3]> {
+    let areas: Vec<Vec3> = triangles.iter().map(|t| area(vertices, t)).collect();
+    let around = around(vertices.len(), triangles);
+    triangles
+        .iter()
+        .zip(&areas)
+        .map(|(corners, own)| {
+            corners.map(|v| {
+                let near = around[v as usize].iter().map(|&t| areas[t as usize]);
+                let alike = near.filter(|other| cosine(own, other) > SMOOTH);
+                unit(alike.fold([0.0; 3], add)).unwrap_or([0.0, 1.0, 0.0])
+            })
+        })
+        .collect()
+}
+
+/// The triangles at each vertex.
+fn around(vertices: usize, triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
+    let mut around = vec![Vec::new(); vertices];
+    for (number, corners) in (0u32..).zip(triangles) {
+        for &v in corners {
+            around[v as usize].push(number);
+        }
+    }
+    around
+}
+
+/// Twice the area times the normal.
+fn area(vertices: &[Vec3], corners: &[u32; 3]) -> Vec3 {
+    let [a, b, c] = corners.map(|v| vertices[v as usize]);
+    let (u, v): (Vec3, Vec3) = (
+        std::array::from_fn(|i| b[i] - a[i]),
+        std::array::from_fn(|i| c[i] - a[i]),
+    );
+    [
+        u[1] * v[2] - u[2] * v[1],
+        u[2] * v[0] - u[0] * v[2],
+        u[0] * v[1] - u[1] * v[0],
+    ]
+}
+
+fn add(a: Vec3, b: Vec3) -> Vec3 {
+    std::array::from_fn(|i| a[i] + b[i])
+}
+
+fn dot(a: &Vec3, b: &Vec3) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn cosine(a: &Vec3, b: &Vec3) -> f64 {
+    dot(a, b) / (dot(a, a) * dot(b, b)).sqrt()
+}
+
+fn unit(a: Vec3) -> Option<Vec3> {
+    let length = dot(&a, &a).sqrt();
+    (length > 0.0).then(|| a.map(|x| x / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use langevin_rigid_bake::shapes::Shape;
+
+    use super::*;
+
+    #[test]
+    fn a_box_is_flat_and_a_ball_is_round() {
+        let brick = Shape::Box {
+            size: [1.0, 2.0, 3.0],
+        };
+        let brick = brick.mesh(48).unwrap();
+        for normal in corner_normals(brick.vertices(), brick.triangles()).as_flattened() {
+            let largest = normal.iter().fold(0.0f64, |l, x| l.max(x.abs()));
+            assert!((largest - 1.0).abs() < 1e-12, "{normal:?}");
+        }
+        let ball = Shape::Ellipsoid {
+            semi_axes: [1.0; 3],
+        };
+        let ball = ball.mesh(1280).unwrap();
+        let normals = corner_normals(ball.vertices(), ball.triangles());
+        for (corners, normals) in ball.triangles().iter().zip(&normals) {
+            for (v, normal) in corners.iter().zip(normals) {
+                assert!(cosine(normal, &ball.vertices()[*v as usize]) > 0.9999);
+            }
+        }
+    }
+}

@@ -1,0 +1,320 @@
+//! What was written, read back by other means.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::path::Path;
+
+use langevin_rigid::linalg::{quat_from_rotation_vector, rotate, rotate_back};
+use langevin_rigid::{Bake, State};
+use serde_json::Value;
+
+use super::*;
+use crate::baking::bake_scene;
+use crate::mesh::{LengthUnit, read_mesh};
+
+fn scene() -> (Scene, Bake) {
+    let text = r#"
+        fluid.preset = "water"
+        run = { time_step = 0.002, duration = 1.0, seed = 3 }
+        [body]
+        shape = "box"
+        size = [0.01, 0.02, 0.04]
+        density = 1100.0
+    "#;
+    let scene = Scene::parse("brick-7", "brick.toml", text).unwrap();
+    let bake = bake_scene(&scene, None, &()).unwrap().bake;
+    (scene, bake)
+}
+
+/// A body that tumbles and swings for `seconds` at so many steps a second.
+fn tumbling(body: u32, seconds: f64, rate: u32) -> Trajectory {
+    let steps = (seconds * f64::from(rate)).round() as u32;
+    let phase = f64::from(body);
+    let state = |step: u32| {
+        let time = f64::from(step) / f64::from(rate);
+        State {
+            time,
+            position: [libm::sin(9.0 * time + phase), -time, phase],
+            orientation: quat_from_rotation_vector([libm::sin(11.0 * time), 6.0 * time, phase]),
+            ..State::default()
+        }
+    };
+    let states: Vec<State> = (0..=steps).map(state).collect();
+    Trajectory::new(body, &states)
+}
+
+struct Glb {
+    document: Value,
+    binary: Vec<u8>,
+}
+
+impl Glb {
+    fn read(path: &Path) -> Self {
+        let bytes = std::fs::read(path).unwrap();
+        let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+        assert_eq!(
+            (&bytes[..4], word(4), word(8)),
+            (&b"glTF"[..], 2, bytes.len())
+        );
+        let binary = 20 + word(12);
+        assert_eq!(binary + 8 + word(binary), bytes.len());
+        Self {
+            document: serde_json::from_slice(&bytes[20..binary]).unwrap(),
+            binary: bytes[binary + 8..].to_vec(),
+        }
+    }
+
+    fn numbers(&self, accessor: &Value) -> Vec<f64> {
+        let accessor = &self.document["accessors"][accessor.as_u64().unwrap() as usize];
+        let view = &self.document["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+        let (at, length) = (view["byteOffset"].as_u64(), view["byteLength"].as_u64());
+        let (at, length) = (at.unwrap() as usize, length.unwrap() as usize);
+        let numbers = self.binary[at..at + length].as_chunks::<4>().0;
+        numbers
+            .iter()
+            .map(|b| f64::from(f32::from_le_bytes(*b)))
+            .collect()
+    }
+
+    /// Times and values of a channel, in the order translation and rotation of each body.
+    fn channel(&self, number: usize) -> (Vec<f64>, Vec<f64>) {
+        let sampler = &self.document["animations"][0]["samplers"][number];
+        (
+            self.numbers(&sampler["input"]),
+            self.numbers(&sampler["output"]),
+        )
+    }
+}
+
+/// The turn from `a` to `b` as a point far out sees it, times `part`: slerp by another way.
+fn turned(a: [f64; 4], b: [f64; 4], part: f64) -> [f64; 4] {
+    let product = |a: [f64; 4], b: [f64; 4]| -> [f64; 4] {
+        let v = |q: [f64; 4]| [q[0], q[1], q[2]];
+        let (u, w) = (v(a), v(b));
+        let cross = [
+            u[1] * w[2] - u[2] * w[1],
+            u[2] * w[0] - u[0] * w[2],
+            u[0] * w[1] - u[1] * w[0],
+        ];
+        let dot: f64 = u.iter().zip(&w).map(|(x, y)| x * y).sum();
+        let c = |i: usize| a[3] * w[i] + b[3] * u[i] + cross[i];
+        [c(0), c(1), c(2), a[3] * b[3] - dot]
+    };
+    let mut between = product(b, [-a[0], -a[1], -a[2], a[3]]);
+    if between[3] < 0.0 {
+        between = between.map(|x| -x);
+    }
+    let sine = between[..3].iter().map(|x| x * x).sum::<f64>().sqrt();
+    let angle = 2.0 * libm::atan2(sine, between[3]);
+    let axis = |i: usize| {
+        if sine > 0.0 {
+            part * angle * between[i] / sine
+        } else {
+            0.0
+        }
+    };
+    product(quat_from_rotation_vector([axis(0), axis(1), axis(2)]), a)
+}
+
+/// The largest distance and angle between a body in the file and its trajectory.
+fn measured(glb: &Glb, number: usize, trajectory: &Trajectory) -> Straying {
+    let (times, positions) = glb.channel(2 * number);
+    let (_, orientations) = glb.channel(2 * number + 1);
+    let mut worst = Straying::default();
+    for pose in &trajectory.poses {
+        let after = times
+            .partition_point(|t| *t <= pose.time)
+            .min(times.len() - 1);
+        let before = after.saturating_sub(1);
+        let part = ((pose.time - times[before]) / (times[after] - times[before])).min(1.0);
+        let point = |frame: usize, i: usize| positions[3 * frame + i];
+        let place = |i: usize| point(before, i) + part * (point(after, i) - point(before, i));
+        let away = (0..3)
+            .map(|i| (place(i) - pose.position[i]).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        let quaternion = |frame: usize| std::array::from_fn(|i| orientations[4 * frame + i]);
+        let shown = turned(quaternion(before), quaternion(after), part);
+        // The largest angle that any axis is off by is that of the turn, for two axes at least.
+        let off = |axis: [f64; 3]| {
+            let seen = rotate_back(pose.orientation, rotate(shown, axis));
+            let chord = (0..3)
+                .map(|i| (seen[i] - axis[i]).powi(2))
+                .sum::<f64>()
+                .sqrt();
+            chord * chord
+        };
+        let [x, y, z] = [
+            off([1.0, 0.0, 0.0]),
+            off([0.0, 1.0, 0.0]),
+            off([0.0, 0.0, 1.0]),
+        ];
+        // Chords of the three axes: their squares sum to 8 sin^2(angle / 2).
+        let angle = 2.0 * libm::asin(((x + y + z) / 8.0).sqrt().min(1.0));
+        worst.position = worst.position.max(away);
+        worst.rotation = worst.rotation.max(angle);
+    }
+    worst
+}
+
+#[test]
+fn a_glb_strays_as_far_as_it_says_slerp_and_all() {
+    let (scene, bake) = scene();
+    let trajectories = [tumbling(0, 1.0, 500), tumbling(1, 0.613, 500)];
+    let recording = Recording {
+        scene: &scene,
+        bake: &bake,
+        trajectories: &trajectories,
+    };
+    let folder = tempfile::tempdir().unwrap();
+    for fps in [24.0, 60.0, 240.0] {
+        let options = Options {
+            fps,
+            ..Options::default()
+        };
+        let stated = write(&recording, Format::Glb, folder.path(), &options);
+        let stated = stated.unwrap().unwrap();
+        let glb = Glb::read(&folder.path().join("trajectory.glb"));
+        let said = &glb.document["scenes"][0]["extras"]["langevin_rigid"];
+        for (key, wanted) in [
+            ("largest_position_error_m", stated.position),
+            ("largest_rotation_error_rad", stated.rotation),
+        ] {
+            let said = said[key].as_f64().unwrap();
+            assert!(
+                (said / wanted - 1.0).abs() < 1e-15,
+                "{key}: {said} {wanted}"
+            );
+        }
+        let found: Vec<Straying> = (0..2)
+            .map(|body| measured(&glb, body, &trajectories[body]))
+            .collect();
+        let position = found[0].position.max(found[1].position);
+        let rotation = found[0].rotation.max(found[1].rotation);
+        assert!(
+            (position / stated.position - 1.0).abs() < 1e-3,
+            "{position} {stated:?}"
+        );
+        assert!(
+            (rotation / stated.rotation - 1.0).abs() < 1e-3,
+            "{rotation} {stated:?}"
+        );
+        // A swing of 1 m at 9 rad/s: chords between frames and between steps, g h^2 / 8 each.
+        let sagittas = 81.0 / 8.0 * (1.0 / (fps * fps) + 1.0 / (500.0 * 500.0));
+        assert!(position < sagittas, "{position} {sagittas}");
+    }
+}
+
+#[test]
+fn bodies_share_one_mesh_and_their_times() {
+    let (scene, bake) = scene();
+    let trajectories: Vec<Trajectory> = (0..5).map(|body| tumbling(body, 0.5, 100)).collect();
+    let recording = Recording {
+        scene: &scene,
+        bake: &bake,
+        trajectories: &trajectories,
+    };
+    let folder = tempfile::tempdir().unwrap();
+    write(&recording, Format::Glb, folder.path(), &Options::default()).unwrap();
+    let path = folder.path().join("trajectory.glb");
+    let Glb { document, .. } = Glb::read(&path);
+    assert_eq!(document["meshes"].as_array().unwrap().len(), 1);
+    let samplers = document["animations"][0]["samplers"].as_array().unwrap();
+    assert_eq!(samplers.len(), 10);
+    assert!(samplers.iter().all(|s| s["input"] == samplers[0]["input"]));
+    assert_eq!(document["nodes"][3]["name"], "brick-7.0003");
+    // Placed five times, read as one surface: the mesh itself, to single precision.
+    let read = read_mesh(&path, LengthUnit::M).unwrap();
+    assert_eq!(read.triangles.len(), 5 * bake.body.surface.triangles.len());
+}
+
+#[test]
+fn the_mesh_of_a_glb_is_the_body() {
+    let (scene, bake) = scene();
+    let trajectories = [Trajectory::new(0, &[State::default()])];
+    let recording = Recording {
+        scene: &scene,
+        bake: &bake,
+        trajectories: &trajectories,
+    };
+    let folder = tempfile::tempdir().unwrap();
+    write(&recording, Format::Glb, folder.path(), &Options::default()).unwrap();
+    let path = folder.path().join("trajectory.glb");
+    // A brick has three normals at each corner, and welds to itself.
+    let read = read_mesh(&path, LengthUnit::M).unwrap().body().unwrap();
+    assert_eq!(read.triangles().len(), bake.body.surface.triangles.len());
+    assert!((read.volume() / bake.body.volume - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_thousand_bodies_fit_into_sixty_megabytes() {
+    let (scene, bake) = scene();
+    let trajectories: Vec<Trajectory> = (0..1000).map(|body| tumbling(body, 10.0, 60)).collect();
+    let recording = Recording {
+        scene: &scene,
+        bake: &bake,
+        trajectories: &trajectories,
+    };
+    let folder = tempfile::tempdir().unwrap();
+    for format in [Format::Glb, Format::Usd, Format::Npz] {
+        write(&recording, format, folder.path(), &Options::default()).unwrap();
+        let file = folder.path().join(format.file_name());
+        let size = std::fs::metadata(file).unwrap().len();
+        assert!(
+            size > 1000 * 601 * 28,
+            "{format} has all of it: {size} bytes"
+        );
+        if format != Format::Npz {
+            assert!(size < 60_000_000, "{format}: {size} bytes");
+        }
+    }
+}
+
+#[test]
+fn arrays_read_back_to_the_last_bit() {
+    let trajectories = [tumbling(0, 0.1, 100), tumbling(4, 0.05, 100)];
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    npz::write(&trajectories, &mut bytes).unwrap();
+    let mut archive = zip::ZipArchive::new(bytes).unwrap();
+    let mut array = |name: &str| {
+        let file = archive.by_name(&format!("{name}.npy")).unwrap();
+        let array = npyz::NpyFile::new(file).unwrap();
+        (array.shape().to_vec(), array.into_vec::<f64>().unwrap())
+    };
+    assert_eq!(array("t").0, [17]);
+    let (shape, orientations) = array("orientation");
+    assert_eq!(shape, [17, 4]);
+    assert_eq!(orientations[44..48], trajectories[1].poses[0].orientation);
+    assert_eq!(array("angular_velocity").0, [17, 3]);
+    let file = archive.by_name("body.npy").unwrap();
+    let bodies = npyz::NpyFile::new(file).unwrap().into_vec::<u32>().unwrap();
+    assert_eq!(bodies[10..12], [0, 4]);
+}
+
+#[test]
+fn what_cannot_be_shown_says_why() {
+    let (scene, bake) = scene();
+    let folder = tempfile::tempdir().unwrap();
+    let fails = |trajectories: &[Trajectory], fps: f64| {
+        let recording = Recording {
+            scene: &scene,
+            bake: &bake,
+            trajectories,
+        };
+        let options = Options {
+            fps,
+            ..Options::default()
+        };
+        let both = [Format::Glb, Format::Usd].map(|format| {
+            let error = write(&recording, format, folder.path(), &options).unwrap_err();
+            error.to_string()
+        });
+        assert_eq!(both[0], both[1]);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        both[0].clone()
+    };
+    assert!(fails(&[], 60.0).contains("no trajectory"));
+    assert!(fails(&[tumbling(0, 1.0, 10)], 0.0).contains("0 frames a second of 1 s"));
+    let mut bad = tumbling(7, 1.0, 10);
+    bad.poses[3].position[1] = f64::NAN;
+    assert!(fails(&[bad], 60.0).starts_with("body 7: pose 3 is no placement"));
+}
