@@ -104,7 +104,7 @@ impl<'a> Layer<'a> {
         let extent = bounds(vertices);
         format!(
             "    class Xform \"Shape\" (\n{data}    )\n    {{\n        \
-             def Mesh \"Mesh\"\n        {{\n            \
+             def Mesh \"{name}\"\n        {{\n            \
              uniform bool doubleSided = 0\n            \
              float3[] extent = {extent}\n            \
              int[] faceVertexCounts = {counts}\n            \
@@ -114,6 +114,7 @@ impl<'a> Layer<'a> {
              point3f[] points = {points}\n            \
              color3f[] primvars:displayColor = [(0.55, 0.42, 0.16)]\n            \
              uniform token subdivisionScheme = \"none\"\n        }}\n    }}\n",
+            name = identifier(&self.recording.scene.name),
             data = custom_data(&of_body(self.recording), 2),
             extent = list(extent.iter().map(|v| tuple(&v.map(single)))),
             counts = list(surface.triangles.iter().map(|_| 3)),
@@ -135,10 +136,12 @@ impl<'a> Layer<'a> {
             "\n    def Xform \"{name}_{body}\" (\n        \
              customData = {{\n            dictionary {KEY} = {{\n                \
              int body = {body}\n            }}\n        }}\n        \
-             instanceable = true\n        \
+             instanceable = {several}\n        \
              references = </World/Shape>\n    )\n    {{\n        \
              double3 xformOp:translate.timeSamples = {{",
-            body = track.body
+            body = track.body,
+            // Programs show an instance as a whole; one body alone is a mesh like any other.
+            several = self.animation.tracks.len() > 1,
         );
         for (code, [x, y, z]) in codes().zip(&track.positions) {
             let _ = write!(text, "{code}:({x:.metres$},{y:.metres$},{z:.metres$}),");

@@ -97,36 +97,42 @@ fn rows(trajectory: &Trajectory) -> String {
 /// # Errors
 /// [`TableError`] with the line.
 pub fn read_csv(table: &str) -> Result<Vec<Trajectory>, TableError> {
-    let mut lines = table.lines();
-    if lines.next().map(str::trim_end) != Some(CSV_HEADER) {
+    let (header, lines) = table.split_once('\n').unwrap_or((table, ""));
+    if header.trim_end() != CSV_HEADER {
         return Err(TableError::Header);
     }
+    let rows: Vec<Result<Row, String>> = lines.par_lines().map(row).collect();
     let mut trajectories: Vec<Trajectory> = Vec::new();
-    for (number, line) in (2..).zip(lines) {
-        let wrong = |reason: String| TableError::Line {
-            line: number,
-            reason,
-        };
-        let (body, numbers) = row(line).map_err(wrong)?;
-        let known = trajectories.last().is_some_and(|last| last.body == body);
-        if !known {
-            if trajectories.iter().any(|t| t.body == body) {
-                let reason = format!("body {body} comes back after another's rows");
-                return Err(wrong(reason));
-            }
-            trajectories.push(Trajectory {
-                body,
-                ..Trajectory::default()
-            });
-        }
-        if let Some(last) = trajectories.last_mut() {
-            push(last, &numbers);
-        }
+    for (line, row) in (2..).zip(rows) {
+        row.and_then(|row| add(&mut trajectories, row))
+            .map_err(|reason| TableError::Line { line, reason })?;
     }
     if trajectories.is_empty() {
         return Err(TableError::Empty);
     }
     Ok(trajectories)
+}
+
+/// A body and its numbers.
+type Row = (u32, [f64; COLUMNS - 1]);
+
+/// Adds a row to its body, which is the last or a new one.
+fn add(trajectories: &mut Vec<Trajectory>, (body, numbers): Row) -> Result<(), String> {
+    let known = trajectories.iter().rposition(|t| t.body == body);
+    match known {
+        Some(place) if place + 1 < trajectories.len() => {
+            return Err(format!("body {body} comes back after another's rows"));
+        }
+        Some(_) => {}
+        None => trajectories.push(Trajectory {
+            body,
+            ..Trajectory::default()
+        }),
+    }
+    if let Some(last) = trajectories.last_mut() {
+        push(last, &numbers);
+    }
+    Ok(())
 }
 
 fn push(trajectory: &mut Trajectory, numbers: &[f64; COLUMNS - 1]) {
@@ -140,7 +146,7 @@ fn push(trajectory: &mut Trajectory, numbers: &[f64; COLUMNS - 1]) {
     trajectory.angular_velocities.push([wx, wy, wz]);
 }
 
-fn row(line: &str) -> Result<(u32, [f64; COLUMNS - 1]), String> {
+fn row(line: &str) -> Result<Row, String> {
     let mut words = line.trim_end().split(',');
     let body = words.next().unwrap_or_default();
     let body = body
