@@ -1,81 +1,11 @@
 //! The command as its users meet it: what it writes, what it says of bad input, and how it exits.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use std::path::Path;
+mod common;
 
 use assert_cmd::Command;
+use common::{BALL, Place, read, scene};
 use serde_json::Value;
-
-/// A place of its own for results and bakes.
-struct Place(tempfile::TempDir);
-
-impl Place {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> std::path::PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn write(&self, name: &str, content: &str) -> String {
-        std::fs::write(self.path(name), content).unwrap();
-        self.path(name).display().to_string()
-    }
-
-    fn run(&self, arguments: &[&str]) -> Outcome {
-        let output = Command::cargo_bin("langevin-rigid")
-            .unwrap()
-            .current_dir(self.0.path())
-            .env("LANGEVIN_RIGID_CACHE", self.path("cache"))
-            .args(arguments)
-            .output()
-            .unwrap();
-        Outcome {
-            code: output.status.code().unwrap(),
-            out: String::from_utf8(output.stdout).unwrap(),
-            err: String::from_utf8(output.stderr).unwrap(),
-        }
-    }
-}
-
-struct Outcome {
-    code: i32,
-    out: String,
-    err: String,
-}
-
-impl Outcome {
-    fn json(&self) -> Value {
-        assert_eq!(self.code, 0, "{}", self.err);
-        serde_json::from_str(&self.out).unwrap()
-    }
-
-    /// Failed with code 1 and an error that contains every word.
-    fn fails_with(&self, words: &[&str]) {
-        assert_eq!(self.code, 1, "{}", self.out);
-        assert!(
-            self.err.lines().any(|l| l.starts_with("error: ")),
-            "{}",
-            self.err
-        );
-        for word in words {
-            assert!(self.err.contains(word), "`{word}` is not in: {}", self.err);
-        }
-    }
-}
-
-fn read(path: &Path) -> String {
-    std::fs::read_to_string(path).unwrap()
-}
-
-/// A small scene in water.
-fn scene(body: &str, run: &str) -> String {
-    format!("[fluid]\npreset = \"water\"\n[body]\n{body}\n[run]\ntime_step = 0.005\n{run}\n")
-}
-
-const BALL: &str =
-    "shape = \"ellipsoid\"\nsemi_axes = [0.01, 0.01, 0.02]\ntriangles = 80\ndensity = 1500.0";
 
 #[test]
 fn simulate_writes_everything_it_promises() {
@@ -471,7 +401,6 @@ fn a_film_is_numbered_and_of_one_size() {
     assert_eq!(std::fs::read_dir(place.path("film")).unwrap().count(), 7);
     let refused = place.run(&["simulate", &scene, "--frames", "film", "--fps", "1e9"]);
     refused.fails_with(&["frames a second", "at most 99999"]);
-    assert_eq!(place.run(&["simulate", &scene, "--fps", "30"]).code, 2);
 }
 
 #[test]
