@@ -1,4 +1,4 @@
-"""`added-mass` in the programs that its formats are for: MuJoCo, Capytaine, numpy, XML parsers."""
+"""`added-mass` in the programs that its formats are for: MuJoCo, Capytaine, DART, XML and CSV readers."""
 
 import json
 import xml.etree.ElementTree
@@ -271,6 +271,59 @@ def test_capytaine_converges_to_our_matrix(command, tmp_path, shape, sizes, orde
     assert extrapolated < limit
 
 
+# Gazebo: its DART engine adds the tensor as a body welded to the link, angular part first.
+
+
+def sdf_tensor(text):
+    """The tensor of `<fluid_added_mass>`, linear part first."""
+    tensor = np.zeros((6, 6))
+    for child in xml.etree.ElementTree.fromstring(text):
+        i, j = ("xyzpqr".index(letter) for letter in child.tag)
+        tensor[i, j] = tensor[j, i] = float(child.text)
+    return tensor
+
+
+def momentum_rate(tensor, v, omega, dv, domega):
+    """Rate of the momenta that a tensor gives a motion about its own point, in body axes: force, torque."""
+    momentum = tensor @ np.concatenate([v, omega])
+    rate = tensor @ np.concatenate([dv, domega])
+    force = rate[:3] + np.cross(omega, momentum[:3])
+    return force, rate[3:] + np.cross(omega, momentum[3:]) + np.cross(v, momentum[:3])
+
+
+def test_dart_moves_as_kirchhoff_says_by_the_sdf_tensor(command, tmp_path):
+    dart = client("dartpy")
+    path = written(tmp_path, tetrahedron())
+    printed = sdf_tensor(command("added-mass", path, "--format", "sdf").stdout)
+    mass, centre, inertia = 2.0, np.array([0.1, 0.2, 0.3]), np.diag([0.2, 0.3, 0.4])
+    skeleton = dart.dynamics.Skeleton()
+    _, link = skeleton.createFreeJointAndBodyNodePair()
+    link.setInertia(dart.dynamics.Inertia(mass, centre, inertia))
+    _, fluid = skeleton.createWeldJointAndBodyNodePair(link)
+    added = dart.dynamics.Inertia()
+    added.setSpatialTensor(np.roll(printed, 3, axis=(0, 1)))
+    fluid.setInertia(added)
+    for body in (link, fluid):
+        body.setGravityMode(False)
+    skeleton.setPositions(np.array([0.3, 0.5, -0.2, 1, 2, 3]))
+    skeleton.setVelocities(np.random.default_rng(3).normal(size=6))
+    skeleton.computeForwardDynamics()
+    omega, v = np.split(link.getSpatialVelocity(), 2)
+    domega, dv = np.split(link.getSpatialAcceleration(), 2)
+
+    def about(place, tensor):
+        """Force, and torque about the link's origin, of a tensor about another place."""
+        carried = v + np.cross(omega, place), omega, dv + np.cross(domega, place), domega
+        force, torque = momentum_rate(tensor, *carried)
+        return np.concatenate([force, torque + np.cross(place, force)])
+
+    ours = report(command, path)
+    wet = about(np.array(ours["centroid"]), np.array(ours["added_mass"]))
+    dry = about(centre, np.block([[mass * np.eye(3), np.zeros((3, 3))], [np.zeros((3, 3)), inertia]]))
+    assert np.abs(wet).max() > 1
+    assert np.abs(wet + dry).max() < 1e-8 * np.abs(wet).max()
+
+
 # Text formats
 
 
@@ -286,10 +339,11 @@ def test_text_formats_parse_to_the_same_tensor(command, tmp_path):
     numbers = np.genfromtxt(tmp_path / "matrix.csv", delimiter=",", skip_header=7)
     assert np.allclose(numbers, origin, rtol=1e-9)
 
-    sdf = xml.etree.ElementTree.fromstring(command("added-mass", path, "--format", "sdf").stdout)
+    text = command("added-mass", path, "--format", "sdf").stdout
+    sdf = xml.etree.ElementTree.fromstring(text)
     names = "xx xy xz xp xq xr yy yz yp yq yr zz zp zq zr pp pq pr qq qr rr".split()
     assert sdf.tag == "fluid_added_mass" and [child.tag for child in sdf] == names
-    assert np.allclose([float(child.text) for child in sdf], origin[np.triu_indices(6)], rtol=1e-9)
+    assert np.allclose(sdf_tensor(text), origin, rtol=1e-9, atol=0)
 
     uuv = xml.etree.ElementTree.fromstring(command("added-mass", path, "--format", "uuv").stdout)
     assert uuv.tag == "hydrodynamic_model" and uuv.find("type").text == "fossen"

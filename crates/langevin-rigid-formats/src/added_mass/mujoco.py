@@ -3,10 +3,10 @@
 def set_added_mass(model, geom):
     """Gives a geom the added mass and its body the buoyancy; returns the largest term left out.
 
-    One geom stands for the whole hull. A mesh geom is turned and moved as MuJoCo turned and moved the
-    mesh; any other is taken to be centred at CENTROID with the axes of the mesh. Its <geom> needs
-    fluidshape="ellipsoid" (and fluidcoef for drag and lift), its <body> gravcomp="1", whose value is
-    replaced. Call it after mj_setConst, which sets geom_fluid anew.
+    One geom stands for the whole hull: a mesh geom of the same mesh, wherever it is on its body, its asset
+    scaled to metres and without refpos or refquat; or a primitive whose centre stands for CENTROID and
+    whose axes for those of the mesh. The <geom> needs fluidshape="ellipsoid", and fluidcoef for drag and
+    lift; the <body> needs gravcomp="1", which is replaced. mj_setConst undoes it: call this after.
     """
     geom = model.geom(geom).id
     body = model.geom_bodyid[geom]

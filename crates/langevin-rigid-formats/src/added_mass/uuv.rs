@@ -9,7 +9,7 @@ const TURN: [f64; 6] = [1.0, -1.0, -1.0, 1.0, -1.0, -1.0];
 /// `<hydrodynamic_model>` with the 36 entries, about the origin of the mesh's coordinates.
 ///
 /// The plugin turns velocities to axes with y right and z down before it multiplies, and turns the forces
-/// back: entries that couple x with y or z change sign, the diagonal does not.
+/// back: entries that couple x or roll with another motion than these change sign, the diagonal does not.
 pub fn uuv(report: &Report) -> String {
     let report = report.about([0.0; 3]);
     let turned = |i: usize| -> [f64; 6] {
