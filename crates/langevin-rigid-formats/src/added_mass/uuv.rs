@@ -35,8 +35,8 @@ fn comment(report: &Report) -> String {
     let (volume, centre) = (report.volume, point(report.centroid));
     stated.xml(&format!(
         "
-For a <link> of libuuv_underwater_object_ros_plugin.so or its DAVE namesake, where the mesh has the frame
-of the link. The plugin takes the velocity at the link's origin and applies the force at the centre of
+For a <link> of libuuv_underwater_object_ros_plugin.so (UUV Simulator, and DAVE on top of it), where the
+mesh has the frame of the link. The plugin takes the velocity at the link's origin and applies the force at the centre of
 mass: exact where the two are one point.
 <volume>{volume:.9e}</volume>, center_of_buoyancy {centre}"
     ))
