@@ -260,8 +260,11 @@ Examples:
   langevin-rigid added-mass leaf.obj --unit cm --thickness 0.0002 --fluid-density 1.2
   langevin-rigid added-mass hull.glb --about origin --format json
   langevin-rigid added-mass scan.ply --proxy 5000
+  langevin-rigid added-mass hull.stl --format sdf
+  langevin-rigid added-mass hull.stl --format mujoco > hull_fluid.py
 
-The tensor is 6 x 6, linear part first, axes of the mesh, in SI (kg, kg m, kg m^2).
+The tensor is 6 x 6, linear part first, axes of the mesh, in SI (kg, kg m, kg m^2). Every format states
+its conventions; docs/destinations says what to do with it.
 Reads OBJ, STL, PLY, glTF and GLB.")]
 pub(crate) struct AddedMass {
     /// The mesh file.
@@ -279,9 +282,9 @@ pub(crate) struct AddedMass {
     #[arg(long, value_name = "RHO", default_value = "1000", value_parser = positive)]
     pub(crate) fluid_density: f64,
     /// Reference point of the tensor: the centre of mass of the homogeneous body, or the origin of
-    /// the mesh's coordinates.
-    #[arg(long, value_name = "POINT", default_value = "com")]
-    pub(crate) about: About,
+    /// the mesh's coordinates [default: com, but origin for sdf and uuv].
+    #[arg(long, value_name = "POINT")]
+    pub(crate) about: Option<About>,
     /// How to print the result.
     #[arg(long, value_name = "FORMAT", default_value = "table")]
     pub(crate) format: Format,
@@ -297,6 +300,15 @@ pub(crate) enum About {
 pub(crate) enum Format {
     Table,
     Json,
+    Csv,
+    /// SDFormat's `<fluid_added_mass>`, for Gazebo.
+    Sdf,
+    /// `<hydrodynamic_model>` of UUV Simulator and DAVE.
+    Uuv,
+    /// A Python program that sets MuJoCo's fluid numbers and buoyancy.
+    Mujoco,
+    /// A Python program that makes the array as Capytaine labels it.
+    Capytaine,
 }
 
 /// Compute the turbulence history of a scene as CSV: t,k,epsilon,chi in SI.

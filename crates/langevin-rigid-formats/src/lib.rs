@@ -1,6 +1,7 @@
 //! Files of Langevin Rigid: what comes in (meshes, scenes) and what goes out (bakes, trajectories,
-//! animations, ensembles, regimes, pictures).
+//! animations, ensembles, regimes, pictures, added mass for other programs).
 
+pub mod added_mass;
 pub mod advance;
 pub mod baking;
 pub mod ensemble;
