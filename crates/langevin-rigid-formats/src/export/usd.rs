@@ -228,6 +228,7 @@ fn typed(value: &Value) -> (&'static str, String) {
     match value {
         Value::String(text) => ("string", format!("\"{}\"", escaped(text))),
         Value::Array(numbers) => ("double[]", list(numbers)),
+        Value::Number(count) if count.is_u64() => ("int", count.to_string()),
         number => ("double", number.to_string()),
     }
 }
