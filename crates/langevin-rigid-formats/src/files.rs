@@ -25,7 +25,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     write_with(path, |out| out.write_all(bytes))
 }
 
-/// [`write`] for what is better written as it comes than kept in memory.
+/// [`write()`] for what is better written as it comes than kept in memory.
 ///
 /// # Errors
 /// [`WriteError`], from the system or from `content`; whatever was at `path` is then still there.
