@@ -8,6 +8,7 @@
 mod check;
 mod edges;
 mod error;
+mod parts;
 mod proxy;
 mod sheet;
 pub(crate) mod vector;

@@ -40,6 +40,11 @@ pub(super) fn by_edge(sides: &[Side]) -> impl Iterator<Item = &[Side]> {
     sides.chunk_by(|a, b| a.vertices == b.vertices)
 }
 
+/// Two triangles agree where they run along their edge in opposite directions.
+pub(super) fn disagree(edge: &[Side]) -> bool {
+    edge.len() == 2 && edge[0].backward == edge[1].backward
+}
+
 /// The edges of a mesh already known to be a closed oriented manifold.
 pub(super) fn of_closed(triangles: &[[u32; 3]]) -> Vec<Edge> {
     let edge = |pair: &[Side]| Edge {
