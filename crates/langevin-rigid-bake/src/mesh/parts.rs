@@ -46,7 +46,6 @@ impl SignedParts {
     }
 }
 
-
 /// For each triangle the lowest triangle that is reached from it by crossing edges of exactly two.
 pub(super) fn components(triangle_count: usize, sides: &[Side]) -> Vec<usize> {
     let mut parts = SignedParts::new(triangle_count);
@@ -70,7 +69,10 @@ pub(super) fn windings(
             one_sided = one_sided.or(Some(edge[0]));
         }
     }
-    ((0..triangle_count).map(|t| parts.root(t)).collect(), one_sided)
+    (
+        (0..triangle_count).map(|t| parts.root(t)).collect(),
+        one_sided,
+    )
 }
 
 /// For each corner, three to a triangle, the lowest corner of its fan: the corners reached by crossing,
