@@ -1,8 +1,10 @@
 //! The boundary of an open surface, loop by loop.
 
+use std::collections::BTreeMap;
+
 use super::edges::{Side, by_edge};
 use super::parts::SignedParts;
-use super::vector::{add, norm, scale, sub};
+use super::vector::{add, dot, norm, scale, sub};
 
 /// A hole in a surface, or the rim of a sheet: open edges that hang together.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,11 +34,6 @@ impl Hole {
             centre: scale(1.0 / sides.len() as f64, middles.fold([0.0; 3], add)),
         }
     }
-
-    /// Area of the disc of the same perimeter (m²), the most that a plane loop encloses.
-    pub(super) fn disc(&self) -> f64 {
-        self.perimeter * self.perimeter / (4.0 * std::f64::consts::PI)
-    }
 }
 
 /// The open edges of the triangles.
@@ -63,22 +60,43 @@ pub(super) fn loops(vertex_count: usize, open: &[Side]) -> Vec<Vec<Side>> {
         .collect()
 }
 
-/// The vertices of a loop in the sense in which its triangles run; nothing where it is not one simple
-/// loop of one sense.
-pub(super) fn in_order(sides: &[Side]) -> Option<Vec<u32>> {
-    let mut steps: Vec<[u32; 2]> = sides.iter().map(Side::run).collect();
-    steps.sort_unstable();
-    if steps.windows(2).any(|pair| pair[0][0] == pair[1][0]) {
-        return None;
+/// The simple rings that open edges which hang together are made of, as their triangles run; where several
+/// meet in a vertex, the narrowest gap is gone around first. Edges that belong to no ring are left out.
+pub(super) fn rings(vertices: &[[f64; 3]], sides: &[Side]) -> Vec<Vec<u32>> {
+    let mut onward: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for [from, to] in sides.iter().map(Side::run) {
+        onward.entry(from).or_default().push(to);
     }
-    let next = |v: u32| {
-        let at = steps.binary_search_by_key(&v, |step| step[0]).ok()?;
-        Some(steps[at][1])
+    let mut rings = Vec::new();
+    while let Some((&first, _)) = onward.iter().find(|(_, to)| !to.is_empty()) {
+        let mut path = vec![first];
+        while let Some(to) = step(vertices, &path, &mut onward) {
+            match path.iter().position(|&v| v == to) {
+                Some(at) => {
+                    rings.push(path.split_off(at));
+                    path.push(to);
+                }
+                None => path.push(to),
+            }
+        }
+        onward.retain(|_, to| !to.is_empty());
+    }
+    rings.retain(|ring| ring.len() > 2);
+    rings
+}
+
+/// Takes the way on from the end of a path that turns back the most.
+fn step(vertices: &[[f64; 3]], path: &[u32], onward: &mut BTreeMap<u32, Vec<u32>>) -> Option<u32> {
+    let place = |v: u32| vertices[v as usize];
+    let here = *path.last()?;
+    let ways = onward.get_mut(&here)?;
+    let onwards = |to: u32| match path.iter().rev().nth(1) {
+        Some(&before) => {
+            let (come, go) = (sub(place(here), place(before)), sub(place(to), place(here)));
+            dot(come, go) / (norm(come) * norm(go))
+        }
+        None => 0.0,
     };
-    let first = steps.first()?[0];
-    let mut order = vec![first];
-    while order.len() < steps.len() {
-        order.push(next(*order.last()?).filter(|&v| v != first)?);
-    }
-    (next(*order.last()?)? == first).then_some(order)
+    let best = (0..ways.len()).min_by(|&i, &j| onwards(ways[i]).total_cmp(&onwards(ways[j])))?;
+    Some(ways.remove(best))
 }

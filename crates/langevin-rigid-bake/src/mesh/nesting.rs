@@ -33,13 +33,14 @@ pub(super) fn containers(
         .collect()
 }
 
-/// Whether a closed surface goes around the first corner of another.
+/// Whether a closed surface goes around another: around its box and its first corner.
 fn surrounds(outer: &[[[f64; 3]; 3]], inner: &[[[f64; 3]; 3]]) -> bool {
     let Some(&[point, ..]) = inner.first() else {
         return false;
     };
     let [low, high] = bounding_box(outer.as_flattened());
-    let boxed = (0..3).all(|k| low[k] < point[k] && point[k] < high[k]);
+    let [inner_low, inner_high] = bounding_box(inner.as_flattened());
+    let boxed = (0..3).all(|k| low[k] < inner_low[k] && inner_high[k] < high[k]);
     boxed && winding_number(outer, point).abs() > 0.5
 }
 

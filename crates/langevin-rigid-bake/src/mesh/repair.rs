@@ -97,16 +97,17 @@ fn mend(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<TriMesh, Unrepaired> {
-    let stages: [(&str, fn(&mut Soup, &Options)); 9] = [
+    let stages: [(&str, fn(&mut Soup, &Options)); 10] = [
         ("dropping the unusable", drop_unusable),
         ("welding", weld::weld),
         ("triangles without area", degenerate::resolve),
         ("duplicates", duplicates::drop),
         ("orientation", orient::agree),
-        ("splitting", split::split),
-        ("components", parts::keep_largest),
         ("holes", holes::fill),
         ("triangles without area", degenerate::resolve),
+        ("orientation", orient::agree),
+        ("components", parts::keep_largest),
+        ("splitting", split::split),
     ];
     if check::closed_manifold(&soup.vertices, &soup.triangles).is_err() {
         for (at, (name, stage)) in stages.iter().enumerate() {

@@ -1,30 +1,33 @@
 //! Small holes are filled.
 
 use super::{FILL, Options, SMALL_HOLE, Soup, Step, parts};
-use crate::mesh::boundary::{Hole, in_order, loops, open_sides};
+use crate::mesh::boundary::{loops, open_sides, rings};
 use crate::mesh::edges::{Side, of_edge, sorted_sides};
 use crate::mesh::parts::components;
 use crate::mesh::vector::{add, cross, dot, norm, scale, sub, unit};
+
+/// Width of a crack, in distances within which vertices are welded.
+const CRACK: f64 = 100.0;
 
 /// Fills the holes that have few edges and are small in their component.
 pub(super) fn fill(soup: &mut Soup, options: &Options) {
     let default = if options.thickness.is_some() { 0 } else { FILL };
     let most = options.fill.unwrap_or(default);
+    let crack = CRACK * soup.weld_distance(options);
     let sides = sorted_sides(&soup.triangles);
     let roots = components(soup.triangles.len(), &sides);
     let areas = parts::areas(&soup.vertices, &soup.triangles, &roots);
     let (mut holes, mut edges) = (0, 0);
     let before = soup.triangles.len();
     for rim in loops(soup.vertices.len(), &open_sides(&sides)) {
-        let hole = Hole::new(&soup.vertices, &rim);
-        let around = areas[roots[rim[0].triangle as usize]];
-        if hole.edges > most || hole.disc() > SMALL_HOLE * around {
-            continue;
-        }
-        if let Some(order) = in_order(&rim) {
-            soup.close(&order, &sides);
-            holes += 1;
-            edges += order.len();
+        let around = rim.iter().map(|side| areas[roots[side.triangle as usize]]);
+        let around = around.fold(0.0, f64::max);
+        for ring in rings(&soup.vertices, &rim) {
+            if ring.len() <= most && soup.is_small(&ring, around, crack) {
+                soup.close(&ring, &sides);
+                holes += 1;
+                edges += ring.len();
+            }
         }
     }
     let triangles = soup.triangles.len() - before;
@@ -36,6 +39,17 @@ pub(super) fn fill(soup: &mut Soup, options: &Options) {
 }
 
 impl Soup {
+    /// Whether a ring is a crack, or small beside the area around it.
+    fn is_small(&self, ring: &[u32], around: f64, crack: f64) -> bool {
+        let places: Vec<[f64; 3]> = ring.iter().map(|&v| self.vertices[v as usize]).collect();
+        let next = |i: usize| places[(i + 1) % places.len()];
+        let perimeter: f64 = (0..places.len())
+            .map(|i| norm(sub(next(i), places[i])))
+            .sum();
+        let disc = perimeter * perimeter / (4.0 * std::f64::consts::PI);
+        norm(twice_vector_area(&places)) < crack * perimeter || disc < SMALL_HOLE * around
+    }
+
     /// Closes a hole along whose rim the triangles run as `order` does.
     fn close(&mut self, order: &[u32], sides: &[Side]) {
         let polygon: Vec<u32> = order.iter().rev().copied().collect();
@@ -79,12 +93,17 @@ fn flat_patch(places: &[[f64; 3]]) -> Option<Vec<[u32; 3]>> {
     (patch.len() as u32 == n - 2 && covers(&patch, n)).then_some(patch)
 }
 
+fn twice_vector_area(places: &[[f64; 3]]) -> [f64; 3] {
+    let arm = |p: [f64; 3]| sub(p, places[0]);
+    let area = places.windows(2).map(|w| cross(arm(w[0]), arm(w[1])));
+    area.fold([0.0; 3], add)
+}
+
 /// The polygon in the plane across its vector area.
 fn projected(places: &[[f64; 3]]) -> Vec<[f64; 2]> {
     let from = places[0];
     let arms: Vec<[f64; 3]> = places.iter().map(|p| sub(*p, from)).collect();
-    let area = arms.windows(2).map(|w| cross(w[0], w[1]));
-    let normal = area.fold([0.0; 3], add);
+    let normal = twice_vector_area(places);
     let least = (0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()));
     let mut axis = [0.0; 3];
     axis[least.unwrap_or(0)] = 1.0;

@@ -312,25 +312,50 @@ fn what_touches_is_taken_apart() {
     for by in [[1.0, 1.0, 0.0], [1.0, 1.0, 1.0]] {
         let both = together(&one, &shifted(&one, by, 1.0));
         let welded = weld(&both.0, &both.1);
-        let along_edge = usize::from(by[2] == 0.0);
-        let repaired = mended(
+        let edges = usize::from(by[2] == 0.0);
+        let repaired = mended(&welded, &Options::default());
+        assert_eq!(
+            repaired.steps,
+            [Step::Split {
+                edges,
+                vertices: 1 + edges
+            }],
+            "{by:?}"
+        );
+        let error = repaired.body.unwrap_err();
+        assert!(matches!(&error, Unrepaired::Components { sizes, .. } if sizes == &[12, 12]));
+        let largest = mended(
             &welded,
             &Options {
                 largest: true,
                 ..Options::default()
             },
         );
-        let split = Step::Split {
-            edges: along_edge,
-            vertices: 1 + along_edge,
-        };
-        let dropped = Step::Components {
-            dropped: 1,
-            triangles: 12,
-        };
-        assert_eq!(repaired.steps, [split, dropped], "{by:?}");
-        assert!((repaired.body.unwrap().volume() - 1.0).abs() < 1e-12);
+        assert!((largest.body.unwrap().volume() - 1.0).abs() < 1e-12);
     }
+}
+
+#[test]
+fn cracks_along_a_face_that_is_divided_more_finely_are_closed() {
+    // The face at high z is divided by a grid of 4 x 4, its neighbours are not.
+    let (mut v, mut t) = cube(12);
+    t.retain(|t| t.iter().any(|&w| v[w as usize][2] < 0.0));
+    let n = v.len() as u32;
+    let at = |i: u32| f64::from(i) / 4.0 - 0.5;
+    v.extend((0..25).map(|k| [at(k % 5), at(k / 5), 0.5]));
+    for k in (0..20).filter(|k| k % 5 < 4).map(|k| k + n) {
+        t.extend([[k, k + 1, k + 6], [k, k + 6, k + 5]]);
+    }
+    let steps = steps_to(&(v, t), 1.0);
+    let [
+        _,
+        Step::Filled { holes, edges, .. },
+        Step::Degenerate { dropped: 0, .. },
+    ] = steps[..]
+    else {
+        panic!("{steps:?}")
+    };
+    assert_eq!((holes, edges), (4, 20));
 }
 
 #[test]
