@@ -31,13 +31,16 @@ pub const FILL: usize = 100;
 /// A hole is filled where a disc of its perimeter has less than this share of the surface around it. A
 /// flat sheet and its rim are at 1 or more, a hemispherical bowl at 0.5, a cube without a face at 0.25.
 pub const SMALL_HOLE: f64 = 0.3;
+/// The share where [`Options::fill`] says how many edges: all but flat sheets are closed.
+pub const WIDE_HOLE: f64 = 0.9;
 
 /// Choices of [`repair`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Options {
     /// Vertices of open edges this close (m) are welded; by default [`WELD`] of the box's diagonal.
     pub weld: Option<f64>,
-    /// Most edges of a hole that is filled; by default [`FILL`], or none for a sheet with a thickness.
+    /// Most edges of a hole that is filled, up to [`WIDE_HOLE`]; by default [`FILL`] up to [`SMALL_HOLE`],
+    /// or none for a sheet with a thickness.
     pub fill: Option<usize>,
     /// Thickness (m) given to what is an open sheet after that.
     pub thickness: Option<f64>,

@@ -15,7 +15,9 @@ const DEBRIS: f64 = 0.01;
 /// The options of `repair` that make a body of the mesh, and that body.
 #[derive(Default)]
 pub(super) struct Remedy {
-    pub(super) flags: Option<&'static str>,
+    pub(super) flags: Option<String>,
+    /// Those for a sheet, where the first are for a solid with a hole.
+    pub(super) sheet_flags: Option<String>,
     pub(super) steps: Vec<Step>,
     pub(super) body: Option<TriMesh>,
     /// Why the mildest repair gives none.
@@ -33,8 +35,15 @@ impl Remedy {
             largest: true,
             ..mild
         };
+        let most = survey
+            .holes
+            .iter()
+            .map(|hole| hole.edges)
+            .max()
+            .unwrap_or(0);
+        let fill = format!(" --fill {most}");
         let filled = |options: Options| Options {
-            fill: Some(1_000_000),
+            fill: Some(most),
             ..options
         };
         let sheet = |options: Options| Options {
@@ -42,24 +51,34 @@ impl Remedy {
             ..options
         };
         let tries = [
-            ("", mild),
-            (" --largest", largest),
-            (" --fill 1000000", filled(mild)),
-            (" --largest --fill 1000000", filled(largest)),
-            (" --thickness LENGTH", sheet(mild)),
-            (" --largest --thickness LENGTH", sheet(largest)),
+            (String::new(), mild),
+            (" --largest".to_owned(), largest),
+            (fill.clone(), filled(mild)),
+            (format!("{fill} --largest"), filled(largest)),
+            (" --thickness LENGTH".to_owned(), sheet(mild)),
+            (" --thickness LENGTH --largest".to_owned(), sheet(largest)),
         ];
         let debris = others_are_debris(survey);
         let mut remedy = Remedy::default();
         for (flags, options) in tries.into_iter().filter(|(_, o)| debris || !o.largest) {
+            // Beside a hole to fill only a sheet is another reading.
+            if remedy.flags.is_some() && options.thickness.is_none() {
+                continue;
+            }
             let repaired = repair(&raw.vertices, &raw.triangles, &options, bars);
             match repaired.body {
+                Ok(_) if remedy.flags.is_some() => {
+                    remedy.sheet_flags = Some(flags);
+                    break;
+                }
                 Ok(body) => {
                     remedy.flags = Some(flags);
                     remedy.steps = repaired.steps;
                     // A sheet's thickness is for its owner to say, and so is what comes of it.
                     remedy.body = Some(body).filter(|_| options.thickness.is_none());
-                    return remedy;
+                    if options.fill.is_none() {
+                        break;
+                    }
                 }
                 Err(error) => {
                     remedy.left.get_or_insert(error);

@@ -56,6 +56,8 @@ pub(super) struct Report {
     ready: bool,
     fault: Option<String>,
     repair: Option<String>,
+    /// The same, if the hole is the rim of a sheet.
+    repair_of_sheet: Option<String>,
     repair_steps: Vec<StepReport>,
     left: Option<String>,
 }
@@ -147,7 +149,11 @@ impl Report {
             expected: foretold.map(ExpectedReport::new),
             ready: survey.body.is_ok(),
             fault: survey.body.as_ref().err().map(ToString::to_string),
-            repair: remedy.flags.map(|flags| command(options, flags)),
+            repair: remedy.flags.as_ref().map(|flags| command(options, flags)),
+            repair_of_sheet: remedy
+                .sheet_flags
+                .as_ref()
+                .map(|flags| command(options, flags)),
             repair_steps: remedy.steps.iter().map(StepReport::new).collect(),
             left: remedy
                 .flags
@@ -424,6 +430,9 @@ impl Report {
             for step in &self.repair_steps {
                 line("", step.text().to_owned());
             }
+        }
+        if let Some(command) = &self.repair_of_sheet {
+            line("or, as a sheet", command.clone());
         }
         if let Some(left) = &self.left {
             line("left to do", left.clone());

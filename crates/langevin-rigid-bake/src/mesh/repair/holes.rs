@@ -1,6 +1,6 @@
 //! Small holes are filled.
 
-use super::{FILL, Options, SMALL_HOLE, Soup, Step, parts};
+use super::{FILL, Options, SMALL_HOLE, Soup, Step, WIDE_HOLE, parts};
 use crate::mesh::boundary::{loops, open_sides, rings};
 use crate::mesh::edges::{Side, of_edge, sorted_sides};
 use crate::mesh::parts::components;
@@ -13,6 +13,11 @@ const CRACK: f64 = 100.0;
 pub(super) fn fill(soup: &mut Soup, options: &Options) {
     let default = if options.thickness.is_some() { 0 } else { FILL };
     let most = options.fill.unwrap_or(default);
+    let share = if options.fill.is_some() {
+        WIDE_HOLE
+    } else {
+        SMALL_HOLE
+    };
     let crack = CRACK * soup.weld_distance(options);
     let sides = sorted_sides(&soup.triangles);
     let roots = components(soup.triangles.len(), &sides);
@@ -23,7 +28,7 @@ pub(super) fn fill(soup: &mut Soup, options: &Options) {
         let around = rim.iter().map(|side| areas[roots[side.triangle as usize]]);
         let around = around.fold(0.0, f64::max);
         for ring in rings(&soup.vertices, &rim) {
-            if ring.len() <= most && soup.is_small(&ring, around, crack) {
+            if ring.len() <= most && soup.is_small(&ring, share * around, crack) {
                 soup.close(&ring, &sides);
                 holes += 1;
                 edges += ring.len();
@@ -39,15 +44,16 @@ pub(super) fn fill(soup: &mut Soup, options: &Options) {
 }
 
 impl Soup {
-    /// Whether a ring is a crack, or small beside the area around it.
-    fn is_small(&self, ring: &[u32], around: f64, crack: f64) -> bool {
+    /// Whether a disc of a ring's perimeter has less than `most` (m²); a crack has next to no area.
+    fn is_small(&self, ring: &[u32], most: f64, crack: f64) -> bool {
         let places: Vec<[f64; 3]> = ring.iter().map(|&v| self.vertices[v as usize]).collect();
         let next = |i: usize| places[(i + 1) % places.len()];
         let perimeter: f64 = (0..places.len())
             .map(|i| norm(sub(next(i), places[i])))
             .sum();
         let disc = perimeter * perimeter / (4.0 * std::f64::consts::PI);
-        norm(twice_vector_area(&places)) < crack * perimeter || disc < SMALL_HOLE * around
+        let twice_area = norm(twice_vector_area(&places));
+        disc < most || (twice_area < crack * perimeter && 0.5 * twice_area < most)
     }
 
     /// Closes a hole along whose rim the triangles run as `order` does.

@@ -212,7 +212,7 @@ pub enum Unrepaired {
     Cancelled,
     /// Holes that are too large to be filled unasked, or the rim of a sheet.
     #[error(
-        "{count} holes are left, the largest of {} edges and {:.4} m around ({:.6}, {:.6}, {:.6}) m: a sheet (paper, leaf, shell) needs `--thickness LENGTH`; a hole small beside the body is filled with `--fill {}` or more; close others in the program that made the mesh",
+        "{count} holes are left, the largest of {} edges and {:.4} m around ({:.6}, {:.6}, {:.6}) m: a sheet (paper, leaf, shell) needs `--thickness LENGTH`; a hole in a solid is filled with `--fill {}` or more unless it is as wide as the surface around it; close others in the program that made the mesh",
         largest.edges, largest.perimeter, largest.centre[0], largest.centre[1], largest.centre[2], largest.edges
     )]
     Open {

@@ -115,6 +115,28 @@ fn a_bowl_and_a_sheet_stay_open_until_asked() {
     assert!(repaired.body.unwrap().volume() > 0.01 * 2.5);
 }
 
+#[test]
+fn a_bowl_is_closed_if_asked() {
+    // A cube of 1 x 1 x 0.4 without its lid, whose disc is 0.49 of the rest.
+    let tray = Shape::Box {
+        size: [1.0, 1.0, 0.4],
+    }
+    .mesh(12)
+    .unwrap();
+    let lid = |t: &&[u32; 3]| t.iter().any(|&v| tray.vertices()[v as usize][2] < 0.0);
+    let open: Vec<[u32; 3]> = tray.triangles().iter().filter(lid).copied().collect();
+    let run = |fill| {
+        let options = Options {
+            fill,
+            ..Options::default()
+        };
+        repair(tray.vertices(), &open, &options, &()).body
+    };
+    assert!(run(None).is_err());
+    assert!((run(Some(4)).unwrap().volume() / 0.4 - 1.0).abs() < 1e-12);
+    assert!(run(Some(3)).is_err());
+}
+
 fn mesh_x(vertices: &[[f64; 3]], v: u32) -> f64 {
     vertices[v as usize][0]
 }
