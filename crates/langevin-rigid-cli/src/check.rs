@@ -34,5 +34,5 @@ pub(crate) fn check(options: &Check, bars: &Bars) -> Result<bool> {
         false => report.table(),
     };
     std::io::stdout().write_all(text.as_bytes())?;
-    Ok(survey.body.is_ok())
+    Ok(report.ready)
 }

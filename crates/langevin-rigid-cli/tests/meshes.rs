@@ -259,3 +259,24 @@ fn repair_simplifies() {
     assert!(report["triangles"].as_u64().unwrap() <= 500);
     assert!((report["volume"].as_f64().unwrap() / mesh.volume() - 1.0).abs() < 1e-12);
 }
+
+#[test]
+fn a_mesh_of_too_many_triangles_is_not_ready_but_can_be_simplified() {
+    let place = Place::new();
+    let size = [0.1, 0.2, 0.3];
+    let mesh = langevin_rigid_bake::shapes::Shape::Box { size }
+        .mesh(450_000)
+        .unwrap();
+    let mut stl = Vec::new();
+    langevin_rigid_formats::mesh::write_stl(&mesh, &mut stl).unwrap();
+    std::fs::write(place.0.path().join("fine.stl"), stl).unwrap();
+    let (code, report) = place.json(&["check", "fine.stl"]);
+    assert_eq!((code, &report["expected"]), (1, &Value::Null));
+    assert!(
+        report["repair"]
+            .as_str()
+            .unwrap()
+            .contains("--triangles 100000")
+    );
+    assert!(report["fault"].as_str().unwrap().contains("400000"));
+}

@@ -50,6 +50,9 @@ pub struct Options {
     pub largest: bool,
 }
 
+/// What is done to them on the way.
+type Stage = fn(&mut Soup, &Options);
+
 /// Triangles on their way.
 struct Soup {
     vertices: Vec<[f64; 3]>,
@@ -100,7 +103,7 @@ fn mend(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<TriMesh, Unrepaired> {
-    let stages: [(&str, fn(&mut Soup, &Options)); 10] = [
+    let stages: [(&str, Stage); 10] = [
         ("dropping the unusable", drop_unusable),
         ("welding", weld::weld),
         ("triangles without area", degenerate::resolve),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use langevin_rigid_bake::added_mass::{Expected, Options, Thinnest, expected};
+use langevin_rigid_bake::added_mass::{AddedMassError, Expected, Options, Thinnest, expected};
 use langevin_rigid_bake::mesh::{Component, Faults, Hole, Survey};
 use serde::Serialize;
 
@@ -14,6 +14,8 @@ use crate::repair::StepReport;
 const LISTED: usize = 5;
 /// The largest box of a body in air or water that is likely (m), and the smallest.
 const LIKELY: [f64; 2] = [1e-3, 30.0];
+/// What makes a body of too many triangles ready.
+const FEWER: &str = " --triangles 100000";
 /// Walls thinner than this beside their triangles make `added-mass` warn.
 const THIN: f64 = 0.02;
 
@@ -53,7 +55,7 @@ pub(super) struct Report {
     largest_components: Vec<ComponentReport>,
     /// Of the mesh if it is ready, else of what the repair makes of it.
     expected: Option<ExpectedReport>,
-    ready: bool,
+    pub(super) ready: bool,
     fault: Option<String>,
     repair: Option<String>,
     /// The same, if the hole is the rim of a sheet.
@@ -93,7 +95,10 @@ impl Report {
         let in_file = size.map(|x| x / options.unit.to_metres(1.0));
         let [m, cm, mm] = [1.0, 1e-2, 1e-3].map(|unit| in_file.map(|x| x * unit));
         let body = survey.body.as_ref().ok().or(remedy.body.as_ref());
-        let foretold = body.and_then(|body| expected(body, &Options::default()).ok());
+        let foretold = body.map(|body| expected(body, &Options::default()));
+        let too_large = foretold.as_ref().is_some_and(Result::is_err);
+        let fewer = if too_large { FEWER } else { "" };
+        let flags = remedy.flags.clone().or(too_large.then(String::new));
         let closed = survey.holes.is_empty() && survey.non_manifold_edges.count == 0;
         let Faults {
             count: non_manifold_edges,
@@ -146,10 +151,10 @@ impl Report {
                 .take(LISTED)
                 .map(ComponentReport::new)
                 .collect(),
-            expected: foretold.map(ExpectedReport::new),
-            ready: survey.body.is_ok(),
-            fault: survey.body.as_ref().err().map(ToString::to_string),
-            repair: remedy.flags.as_ref().map(|flags| command(options, flags)),
+            ready: survey.body.is_ok() && !too_large,
+            fault: fault(survey, &foretold),
+            expected: foretold.and_then(Result::ok).map(ExpectedReport::new),
+            repair: flags.map(|flags| command(options, &(flags + fewer))),
             repair_of_sheet: remedy
                 .sheet_flags
                 .as_ref()
@@ -197,6 +202,13 @@ impl ExpectedReport {
             thinnest_wall_at: foretold.thinnest.map(|t| t.position),
         }
     }
+}
+
+/// Why the mesh is not ready, at first sight.
+fn fault(survey: &Survey, foretold: &Option<Result<Expected, AddedMassError>>) -> Option<String> {
+    let of_body = survey.body.as_ref().err().map(ToString::to_string);
+    let of_size = foretold.as_ref().and_then(|f| f.as_ref().err());
+    of_body.or(of_size.map(ToString::to_string))
 }
 
 /// The unit in which the box has a likely size, where it has none in the unit given.
@@ -425,6 +437,7 @@ impl Report {
             return;
         }
         line("verdict", "not ready".into());
+        line("at first sight", self.fault.clone().unwrap_or_default());
         if let Some(command) = &self.repair {
             line("repair", command.clone());
             for step in &self.repair_steps {
