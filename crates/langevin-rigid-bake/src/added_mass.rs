@@ -23,6 +23,7 @@ mod clusters;
 mod columns;
 mod discretize;
 mod edges;
+mod expect;
 mod far;
 mod flip;
 mod flow;
@@ -45,6 +46,7 @@ mod shape;
 mod solver;
 mod sums;
 
+pub use expect::{Expected, Thinnest, expected};
 pub use report::{AddedMassError, MeshQuality, Warning};
 pub use shape::ShapeError;
 

@@ -3,19 +3,29 @@
 //! [`TriMesh::new`] accepts only what the boundary integrals can use: a closed, connected,
 //! consistently oriented manifold that encloses a volume. Everything else is a [`MeshError`] that
 //! names the place and the remedy. [`TriMesh::from_sheet`] turns an open sheet into such a body,
-//! [`weld`] joins the vertices a file format duplicated.
+//! [`weld`] joins the vertices a file format duplicated, [`survey()`] tells everything about a mesh that may
+//! be bad, and [`repair()`] mends it.
 
+mod boundary;
 mod check;
 mod edges;
 mod error;
+mod nesting;
+mod parts;
 mod proxy;
+mod repair;
+mod seams;
 mod sheet;
+mod survey;
 pub(crate) mod vector;
 mod weld;
 
+pub use boundary::Hole;
 pub use edges::{Edge, open_edge_count};
 pub use error::{EdgeSite, MeshError};
 pub use proxy::ProxyError;
+pub use repair::{FILL, Options, Repaired, SMALL_HOLE, Step, Unrepaired, WELD, WIDE_HOLE, repair};
+pub use survey::{Component, Faults, Seams, Survey, survey};
 pub use weld::weld;
 
 use vector::{add, cross, det, dot, mat_vec, norm, scale, sub};

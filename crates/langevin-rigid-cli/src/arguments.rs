@@ -32,6 +32,8 @@ pub(crate) enum Command {
     Ensemble(Ensemble),
     Regimes(Regimes),
     AddedMass(AddedMass),
+    Check(Check),
+    Repair(Repair),
     Turbulence(Turbulence),
     Bake(Bake),
     Reproduce(Reproduce),
@@ -288,6 +290,71 @@ pub(crate) struct AddedMass {
     /// How to print the result.
     #[arg(long, value_name = "FORMAT", default_value = "table")]
     pub(crate) format: Format,
+}
+
+/// Report what a mesh is, what is wrong with it, and what mends it.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid check hull.stl --unit mm
+  langevin-rigid check scan.ply --json
+
+A mesh never fails to be checked because it is bad: everything is reported in one go.
+Reads OBJ, STL, PLY, glTF and GLB. Lengths are in metres unless they say otherwise.
+
+Exit codes:
+  0    ready for `added-mass` and scenes
+  1    not ready, or the file cannot be read")]
+pub(crate) struct Check {
+    /// The mesh file.
+    pub(crate) mesh: PathBuf,
+    /// Unit of its coordinates.
+    #[arg(long, value_name = "UNIT", default_value = "m")]
+    pub(crate) unit: LengthUnit,
+    /// Print the report as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Make a body of a mesh that is none: weld, orient, fill, thicken, simplify, and say what was done.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid repair scan.ply --out scan.obj
+  langevin-rigid repair hull.stl --unit mm --largest --out hull.obj
+  langevin-rigid repair leaf.obj --unit cm --thickness 0.0002 --out leaf.stl
+  langevin-rigid repair scan.ply --triangles 5000 --out proxy.obj
+
+FILE is OBJ or STL by its extension, in metres, and is written only if it holds a body. A mesh that is
+one already is written as it is.")]
+pub(crate) struct Repair {
+    /// The mesh file.
+    pub(crate) mesh: PathBuf,
+    /// File to write, .obj (all digits) or .stl (single precision).
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// Unit of the mesh's coordinates.
+    #[arg(long, value_name = "UNIT", default_value = "m")]
+    pub(crate) unit: LengthUnit,
+    /// Weld vertices of open edges this close (m) [default: 1e-6 of the diagonal of the mesh's box].
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    pub(crate) weld: Option<f64>,
+    /// Fill holes of at most this many edges that are small beside the body [default: 100, with
+    /// --thickness 0].
+    #[arg(long, value_name = "EDGES")]
+    pub(crate) fill: Option<usize>,
+    /// Thicken what is an open sheet after that to this thickness (m).
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    pub(crate) thickness: Option<f64>,
+    /// Simplify to about N triangles, keeping the volume.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..))]
+    pub(crate) triangles: Option<u32>,
+    /// Of several components keep the one of the largest surface.
+    #[arg(long)]
+    pub(crate) largest: bool,
+    /// Print what was done as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

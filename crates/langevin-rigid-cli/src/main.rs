@@ -6,12 +6,14 @@ mod bake;
 mod bars;
 mod bench;
 mod cache;
+mod check;
 mod crowd;
 mod ensemble;
 mod export;
 mod falls;
 mod pictures;
 mod regimes;
+mod repair;
 mod reproduce;
 mod scenes;
 mod simulate;
@@ -37,6 +39,11 @@ fn main() -> ExitCode {
         Command::Ensemble(options) => ensemble::ensemble(options, &bars),
         Command::Regimes(options) => regimes::regimes(options, &bars),
         Command::AddedMass(options) => added_mass::added_mass(options, &bars),
+        Command::Check(options) => match check::check(options, &bars) {
+            Ok(false) => return ExitCode::FAILURE,
+            checked => checked.map(|_| ()),
+        },
+        Command::Repair(options) => repair::repair(options, &bars),
         Command::Turbulence(options) => turbulence::turbulence(options, &bars),
         Command::Bake(options) => bake::bake(options, &bars),
         Command::Bench(options) => bench::bench(options, &bars),

@@ -80,7 +80,7 @@ impl Flow {
 }
 
 /// Vertices from which W is kept as clusters of panels and not as a matrix.
-const HIERARCHICAL: usize = 8000;
+pub(super) const HIERARCHICAL: usize = 8000;
 
 /// W, as its size asks for.
 enum Form<'a> {

@@ -11,7 +11,7 @@ use crate::mesh::TriMesh;
 
 /// Share of length × size² × |n - n'|² that the tensor misses at the facets of a curved surface, measured
 /// on ellipsoids and tori against finer divisions of the same polyhedra.
-const FACETING: f64 = 0.003;
+pub(super) const FACETING: f64 = 0.003;
 const LARGE_ESTIMATE: f64 = 0.01;
 const LARGE_QUADRATURE_ERROR: f64 = 0.02;
 const LARGE_ASPECT: f64 = 1000.0;

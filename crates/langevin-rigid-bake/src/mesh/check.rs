@@ -1,6 +1,7 @@
 //! Every check a triangle soup must pass to be a body.
 
-use super::edges::{Side, by_edge, sorted_sides};
+use super::edges::{Side, by_edge, disagree, sorted_sides};
+use super::parts::{components, fans, windings};
 use super::vector::{add, cross, dot, norm, scale, sub};
 use super::{EdgeSite, MeshError, TriMesh};
 
@@ -75,7 +76,7 @@ fn no_degenerate(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(), Me
 }
 
 /// A repeated vertex makes the area exactly zero, so this finds it as well.
-fn has_no_area([a, b, c]: [[f64; 3]; 3]) -> bool {
+pub(super) fn has_no_area([a, b, c]: [[f64; 3]; 3]) -> bool {
     let (u, v, w) = (sub(b, a), sub(c, a), sub(c, b));
     let longest_squared = dot(u, u).max(dot(v, v)).max(dot(w, w));
     // Written so that an overflow to infinity or not-a-number counts as degenerate.
@@ -141,11 +142,6 @@ fn no_open_edges(vertices: &[[f64; 3]], sides: &[Side]) -> Result<(), MeshError>
     }
 }
 
-/// Two triangles agree where they run along their edge in opposite directions.
-fn disagree(edge: &[Side]) -> bool {
-    edge.len() == 2 && edge[0].backward == edge[1].backward
-}
-
 /// Checks that neighbours wind alike (edges with at most two triangles).
 pub(super) fn oriented(
     vertices: &[[f64; 3]],
@@ -156,23 +152,12 @@ pub(super) fn oriented(
     let Some((site, _, count)) = first_site(vertices, bad.into_iter()) else {
         return Ok(());
     };
-    match one_sided_at(triangle_count, sides) {
+    match windings(triangle_count, sides).1 {
         Some(side) => Err(MeshError::NotOrientable {
             site: self::site(vertices, &side),
         }),
         None => Err(MeshError::InconsistentOrientation { site, count }),
     }
-}
-
-/// An edge at which no choice of windings lets the triangles agree, if there is one.
-fn one_sided_at(triangle_count: usize, sides: &[Side]) -> Option<Side> {
-    let mut parts = SignedParts::new(triangle_count);
-    let mut joined = by_edge(sides).filter(|edge| edge.len() == 2);
-    let conflict = joined.find(|edge| {
-        let [a, b] = [edge[0].triangle as usize, edge[1].triangle as usize];
-        !parts.join(a, b, disagree(edge))
-    });
-    conflict.map(|edge| edge[0])
 }
 
 /// Checks that the triangles at each vertex form one fan: all are reached from one by crossing
@@ -181,28 +166,13 @@ pub(super) fn manifold_vertices(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
 ) -> Result<(), MeshError> {
-    // Each corner of a triangle starts as a fan of its own; crossing an edge joins the corners at
-    // either of its ends. Fans in excess of one at a vertex are pinches.
-    let corner = |t: u32, v: u32| {
-        let place = triangles[t as usize]
-            .iter()
-            .position(|&w| w == v)
-            .unwrap_or(0);
-        3 * t as usize + place
-    };
-    let mut fans = SignedParts::new(3 * triangles.len());
-    for edge in by_edge(&sorted_sides(triangles)).filter(|edge| edge.len() == 2) {
-        for v in edge[0].vertices {
-            fans.join(
-                corner(edge[0].triangle, v),
-                corner(edge[1].triangle, v),
-                false,
-            );
-        }
-    }
+    // Fans in excess of one at a vertex are pinches.
+    let sides = sorted_sides(triangles);
+    let pairs = by_edge(&sides).filter(|edge| edge.len() == 2);
+    let fans = fans(triangles, pairs.map(|edge| [&edge[0], &edge[1]]));
     let mut fan_count = vec![0u32; vertices.len()];
     for (c, &v) in triangles.as_flattened().iter().enumerate() {
-        fan_count[v as usize] += u32::from(fans.root(c).0 == c);
+        fan_count[v as usize] += u32::from(fans[c] == c);
     }
     let mut bad = (0u32..).zip(&fan_count).filter(|&(_, &n)| n > 1);
     match bad.next() {
@@ -217,11 +187,7 @@ pub(super) fn manifold_vertices(
 
 /// Checks that every triangle is reached from every other by crossing edges.
 fn connected(triangle_count: usize, sides: &[Side]) -> Result<(), MeshError> {
-    let mut parts = SignedParts::new(triangle_count);
-    for edge in by_edge(sides).filter(|edge| edge.len() == 2) {
-        parts.join(edge[0].triangle as usize, edge[1].triangle as usize, false);
-    }
-    let roots: Vec<usize> = (0..triangle_count).map(|t| parts.root(t).0).collect();
+    let roots = components(triangle_count, sides);
     let Some(triangle) = roots.iter().position(|&r| r != roots[0]) else {
         return Ok(());
     };
@@ -238,50 +204,6 @@ fn connected(triangle_count: usize, sides: &[Side]) -> Result<(), MeshError> {
         sizes,
         triangle,
     })
-}
-
-/// Union-find whose elements also carry a sign relative to their root.
-struct SignedParts {
-    parent: Vec<usize>,
-    flipped: Vec<bool>,
-}
-
-impl SignedParts {
-    fn new(n: usize) -> SignedParts {
-        SignedParts {
-            parent: (0..n).collect(),
-            flipped: vec![false; n],
-        }
-    }
-
-    /// The root of an element and whether their signs differ; halves the path on the way.
-    fn root(&mut self, mut x: usize) -> (usize, bool) {
-        let mut flipped = false;
-        while self.parent[x] != x {
-            let up = self.parent[x];
-            // A root's own flag is never set, so this also holds one step below it.
-            self.flipped[x] ^= self.flipped[up];
-            self.parent[x] = self.parent[up];
-            flipped ^= self.flipped[x];
-            x = self.parent[x];
-        }
-        (x, flipped)
-    }
-
-    /// Joins two parts so that `a` and `b` have opposite signs (`opposite`) or the same; `false`
-    /// where they are joined already and contradict that.
-    fn join(&mut self, a: usize, b: usize, opposite: bool) -> bool {
-        let (root_a, flip_a) = self.root(a);
-        let (root_b, flip_b) = self.root(b);
-        let flip = flip_a ^ flip_b ^ opposite;
-        if root_a == root_b {
-            return !flip;
-        }
-        let (low, high) = (root_a.min(root_b), root_a.max(root_b));
-        self.parent[high] = low;
-        self.flipped[high] = flip;
-        true
-    }
 }
 
 /// Checks that the surface encloses something.

@@ -19,6 +19,18 @@ pub(super) struct Side {
     pub(super) triangle: u32,
 }
 
+impl Side {
+    /// From and to, as the triangle runs.
+    pub(super) fn run(&self) -> [u32; 2] {
+        let [low, high] = self.vertices;
+        if self.backward {
+            [high, low]
+        } else {
+            [low, high]
+        }
+    }
+}
+
 /// The sides of all triangles, sorted so that those of one edge are neighbours.
 pub(super) fn sorted_sides(triangles: &[[u32; 3]]) -> Vec<Side> {
     let mut sides: Vec<Side> = (0u32..)
@@ -38,6 +50,18 @@ pub(super) fn sorted_sides(triangles: &[[u32; 3]]) -> Vec<Side> {
 /// The sides grouped by edge.
 pub(super) fn by_edge(sides: &[Side]) -> impl Iterator<Item = &[Side]> {
     sides.chunk_by(|a, b| a.vertices == b.vertices)
+}
+
+/// The sides of one edge, its lower vertex first.
+pub(super) fn of_edge(sides: &[Side], edge: [u32; 2]) -> &[Side] {
+    let from = sides.partition_point(|s| s.vertices < edge);
+    let count = sides[from..].partition_point(|s| s.vertices == edge);
+    &sides[from..from + count]
+}
+
+/// Two triangles agree where they run along their edge in opposite directions.
+pub(super) fn disagree(edge: &[Side]) -> bool {
+    edge.len() == 2 && edge[0].backward == edge[1].backward
 }
 
 /// The edges of a mesh already known to be a closed oriented manifold.

@@ -61,7 +61,7 @@ pub enum MeshError {
     },
     /// Triangles with a repeated vertex or no area.
     #[error(
-        "{count} triangles without area, the first triangle {triangle} (vertices {vertices:?}): merge vertices by distance and dissolve degenerate faces"
+        "{count} triangles without area, the first triangle {triangle} (vertices {vertices:?}): merge vertices by distance and dissolve degenerate faces, or let `langevin-rigid repair` do it"
     )]
     DegenerateTriangle {
         /// The first such triangle.
@@ -73,7 +73,7 @@ pub enum MeshError {
     },
     /// The same three vertices make two triangles.
     #[error(
-        "{count} duplicate triangles, the first triangle {second}, which repeats triangle {first}: delete duplicate and interior faces"
+        "{count} duplicate triangles, the first triangle {second}, which repeats triangle {first}: delete duplicate and interior faces, or let `langevin-rigid repair` do it"
     )]
     DuplicateTriangle {
         /// The triangle that comes first.
@@ -97,7 +97,7 @@ pub enum MeshError {
     },
     /// Edges that belong to one triangle only.
     #[error(
-        "{count} open edges, the first {site}: the surface is not closed. If it is a sheet (paper, leaf, card), give it a thickness (`--thickness LENGTH` on the command line, `thickness = LENGTH` in a scene); if it is a solid, merge vertices by distance and fill the holes"
+        "{count} open edges, the first {site}: the surface is not closed. If it is a sheet (paper, leaf, card), give it a thickness (`--thickness LENGTH` on the command line, `thickness = LENGTH` in a scene); if it is a solid, merge vertices by distance and fill the holes, or let `langevin-rigid repair` do it"
     )]
     OpenEdges {
         /// The first such edge.
@@ -107,7 +107,7 @@ pub enum MeshError {
     },
     /// Two neighbouring triangles wind in opposite senses, though all could agree.
     #[error(
-        "{count} edges where neighbouring triangles wind in opposite senses, the first {site}: recompute the normals consistently (in Blender: Mesh > Normals > Recalculate Outside)"
+        "{count} edges where neighbouring triangles wind in opposite senses, the first {site}: recompute the normals consistently, or let `langevin-rigid repair` do it"
     )]
     InconsistentOrientation {
         /// The first such edge.

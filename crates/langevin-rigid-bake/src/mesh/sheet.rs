@@ -1,6 +1,7 @@
 //! Thickening an open sheet into a closed body.
 
-use super::edges::{Side, by_edge, sorted_sides};
+use super::boundary::open_sides;
+use super::edges::{Side, sorted_sides};
 use super::vector::{add, cross, dot, norm, scale, sub, unit};
 use super::{MeshError, check};
 
@@ -48,8 +49,7 @@ fn rim_of_sheet(
     check::manifold_edges(vertices, &sides)?;
     check::oriented(vertices, triangles.len(), &sides)?;
     check::manifold_vertices(vertices, triangles)?;
-    let open = by_edge(&sides).filter(|edge| edge.len() == 1);
-    let rim: Vec<Side> = open.map(|edge| edge[0]).collect();
+    let rim = open_sides(&sides);
     if rim.is_empty() {
         Err(MeshError::ClosedSheet)
     } else {
@@ -61,12 +61,7 @@ fn rim_of_sheet(
 fn back_and_wall(n: u32, front: &[[u32; 3]], rim: &[Side]) -> Vec<[u32; 3]> {
     let back = front.iter().map(|&[a, b, c]| [a + n, c + n, b + n]);
     let wall = rim.iter().flat_map(|side| {
-        let [low, high] = side.vertices;
-        let [from, to] = if side.backward {
-            [high, low]
-        } else {
-            [low, high]
-        };
+        let [from, to] = side.run();
         // The front runs from → to, so the wall must run to → from.
         [[to, from, from + n], [to, from + n, to + n]]
     });

@@ -140,7 +140,7 @@ fn touching_and_separate_parts_are_told_apart() {
 }
 
 /// A strip of `n` squares around a circle, with a half twist if `twisted`.
-fn ring_strip(n: u32, twisted: bool) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+pub(super) fn ring_strip(n: u32, twisted: bool) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let vertices = (0..n).flat_map(|i| {
         let angle = std::f64::consts::TAU * f64::from(i) / f64::from(n);
         let tilt = if twisted { 0.5 * angle } else { 0.0 };

@@ -1,0 +1,38 @@
+//! `langevin-rigid check`
+
+mod remedy;
+mod report;
+
+use std::io::Write as _;
+
+use anyhow::{Result, bail};
+use langevin_rigid_bake::mesh::survey;
+use langevin_rigid_formats::mesh::read_mesh;
+
+use crate::arguments::Check;
+use crate::bars::Bars;
+use remedy::Remedy;
+use report::Report;
+
+/// Whether the mesh is ready.
+pub(crate) fn check(options: &Check, bars: &Bars) -> Result<bool> {
+    let raw = read_mesh(&options.mesh, options.unit)?;
+    let Some(survey) = survey(&raw.vertices, &raw.triangles, bars) else {
+        bail!("the check was interrupted");
+    };
+    let remedy = match &survey.body {
+        Ok(_) => Remedy::default(),
+        Err(_) => Remedy::find(&raw, &survey, bars),
+    };
+    if bars.interrupted() {
+        bail!("the check was interrupted");
+    }
+    let report = Report::new(options, &survey, &remedy);
+    bars.clear();
+    let text = match options.json {
+        true => serde_json::to_string_pretty(&report)? + "\n",
+        false => report.table(),
+    };
+    std::io::stdout().write_all(text.as_bytes())?;
+    Ok(report.ready)
+}

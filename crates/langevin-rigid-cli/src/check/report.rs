@@ -1,0 +1,248 @@
+//! The report of `check`.
+
+mod table;
+
+use langevin_rigid_bake::added_mass::{AddedMassError, Expected, Options, Thinnest, expected};
+use langevin_rigid_bake::mesh::{Component, Faults, Hole, Survey};
+use serde::Serialize;
+
+use super::remedy::Remedy;
+use crate::arguments::Check;
+use crate::repair::StepReport;
+
+/// Holes and components that are listed.
+const LISTED: usize = 5;
+/// The largest box of a body in air or water that is likely (m), and the smallest.
+const LIKELY: [f64; 2] = [1e-3, 30.0];
+/// What makes a body of too many triangles ready.
+const FEWER: &str = " --triangles 100000";
+
+/// The JSON keys are a contract with scripts; lengths in metres.
+#[derive(Serialize)]
+pub(super) struct Report {
+    file: String,
+    triangles: usize,
+    vertices: usize,
+    unit: String,
+    size: [f64; 3],
+    /// The same box, were the file in another unit.
+    size_if_m: [f64; 3],
+    size_if_cm: [f64; 3],
+    size_if_mm: [f64; 3],
+    unit_hint: Option<String>,
+    area: f64,
+    /// Nothing while there are holes.
+    volume: Option<f64>,
+    holes: usize,
+    largest_holes: Vec<HoleReport>,
+    unusable: usize,
+    unused_vertices: usize,
+    degenerate: usize,
+    duplicates: usize,
+    unwelded: usize,
+    unwelded_distance: f64,
+    weld_tolerance: f64,
+    flipped: usize,
+    inside_out: bool,
+    one_sided: bool,
+    non_manifold_edges: usize,
+    first_non_manifold_edge: Option<[f64; 3]>,
+    non_manifold_vertices: usize,
+    first_non_manifold_vertex: Option<[f64; 3]>,
+    components: usize,
+    largest_components: Vec<ComponentReport>,
+    /// Of the mesh if it is ready, else of what the repair makes of it.
+    expected: Option<ExpectedReport>,
+    pub(super) ready: bool,
+    fault: Option<String>,
+    repair: Option<String>,
+    /// The same, if the hole is the rim of a sheet.
+    repair_of_sheet: Option<String>,
+    repair_steps: Vec<StepReport>,
+    left: Option<String>,
+}
+
+#[derive(Serialize)]
+struct HoleReport {
+    edges: usize,
+    perimeter: f64,
+    centre: [f64; 3],
+}
+
+#[derive(Serialize)]
+struct ComponentReport {
+    triangles: usize,
+    area: f64,
+    volume: Option<f64>,
+    inside: Option<usize>,
+}
+
+#[derive(Serialize)]
+struct ExpectedReport {
+    triangles_solved: usize,
+    error_estimate: f64,
+    seconds: f64,
+    thinnest_wall: Option<f64>,
+    thinnest_wall_over_edge: Option<f64>,
+    thinnest_wall_at: Option<[f64; 3]>,
+}
+
+impl Report {
+    pub(super) fn new(options: &Check, survey: &Survey, remedy: &Remedy) -> Report {
+        let size: [f64; 3] = std::array::from_fn(|k| survey.bounds[1][k] - survey.bounds[0][k]);
+        let in_file = size.map(|x| x / options.unit.to_metres(1.0));
+        let [m, cm, mm] = [1.0, 1e-2, 1e-3].map(|unit| in_file.map(|x| x * unit));
+        let body = survey.body.as_ref().ok().or(remedy.body.as_ref());
+        let foretold = body.map(|body| expected(body, &Options::default()));
+        let too_large = foretold.as_ref().is_some_and(Result::is_err);
+        let fewer = if too_large { FEWER } else { "" };
+        let flags = remedy.flags.clone().or(too_large.then(String::new));
+        let closed = survey.holes.is_empty() && survey.non_manifold_edges.count == 0;
+        let Faults {
+            count: non_manifold_edges,
+            first: first_non_manifold_edge,
+        } = survey.non_manifold_edges;
+        let Faults {
+            count: non_manifold_vertices,
+            first: first_non_manifold_vertex,
+        } = survey.non_manifold_vertices;
+        Report {
+            file: options.mesh.display().to_string(),
+            triangles: survey.triangles,
+            vertices: survey.vertices,
+            unit: options.unit.to_string(),
+            size,
+            size_if_m: m,
+            size_if_cm: cm,
+            size_if_mm: mm,
+            unit_hint: unit_hint(size, [m, cm, mm]),
+            area: survey.area,
+            volume: closed.then_some(survey.volume),
+            holes: survey.holes.len(),
+            largest_holes: survey
+                .holes
+                .iter()
+                .take(LISTED)
+                .map(HoleReport::new)
+                .collect(),
+            unusable: survey.unusable,
+            unused_vertices: survey.unused_vertices,
+            degenerate: survey.degenerate,
+            duplicates: survey.duplicates,
+            unwelded: survey.seams.vertices,
+            unwelded_distance: survey.seams.distance,
+            weld_tolerance: survey.seams.tolerance,
+            flipped: survey.flipped,
+            inside_out: survey
+                .components
+                .iter()
+                .any(|c| c.volume.is_some_and(|v| v < 0.0)),
+            one_sided: survey.one_sided.is_some(),
+            non_manifold_edges,
+            first_non_manifold_edge,
+            non_manifold_vertices,
+            first_non_manifold_vertex,
+            components: survey.components.len(),
+            largest_components: survey
+                .components
+                .iter()
+                .take(LISTED)
+                .map(ComponentReport::new)
+                .collect(),
+            ready: survey.body.is_ok() && !too_large,
+            fault: fault(survey, &foretold),
+            expected: foretold.and_then(Result::ok).map(ExpectedReport::new),
+            repair: flags.map(|flags| command(options, &(flags + fewer))),
+            repair_of_sheet: remedy
+                .sheet_flags
+                .as_ref()
+                .map(|flags| command(options, flags)),
+            repair_steps: remedy.steps.iter().map(StepReport::new).collect(),
+            left: remedy
+                .flags
+                .is_none()
+                .then(|| remedy.left.as_ref().map(ToString::to_string))
+                .flatten(),
+        }
+    }
+}
+
+impl HoleReport {
+    fn new(hole: &Hole) -> HoleReport {
+        HoleReport {
+            edges: hole.edges,
+            perimeter: hole.perimeter,
+            centre: hole.centre,
+        }
+    }
+}
+
+impl ComponentReport {
+    fn new(component: &Component) -> ComponentReport {
+        ComponentReport {
+            triangles: component.triangles,
+            area: component.area,
+            volume: component.volume,
+            inside: component.inside,
+        }
+    }
+}
+
+impl ExpectedReport {
+    fn new(foretold: Expected) -> ExpectedReport {
+        let wall = |f: fn(Thinnest) -> f64| foretold.thinnest.map(f);
+        ExpectedReport {
+            triangles_solved: foretold.triangles_solved,
+            error_estimate: foretold.error_estimate,
+            seconds: foretold.seconds,
+            thinnest_wall: wall(|t| t.thickness),
+            thinnest_wall_over_edge: wall(|t| t.ratio),
+            thinnest_wall_at: foretold.thinnest.map(|t| t.position),
+        }
+    }
+}
+
+/// Why the mesh is not ready, at first sight.
+fn fault(survey: &Survey, foretold: &Option<Result<Expected, AddedMassError>>) -> Option<String> {
+    let of_body = survey.body.as_ref().err().map(ToString::to_string);
+    let of_size = foretold.as_ref().and_then(|f| f.as_ref().err());
+    of_body.or(of_size.map(ToString::to_string))
+}
+
+/// The unit in which the box has a likely size, where it has none in the unit given.
+fn unit_hint(size: [f64; 3], others: [[f64; 3]; 3]) -> Option<String> {
+    let likely = |size: &[f64; 3]| {
+        let longest = size.iter().copied().fold(0.0, f64::max);
+        (LIKELY[0]..=LIKELY[1]).contains(&longest)
+    };
+    if likely(&size) {
+        return None;
+    }
+    let names = ["m", "cm", "mm"];
+    // Millimetres are what programs write when they do not write metres.
+    let unit = [0, 2, 1].into_iter().find(|&k| likely(&others[k]))?;
+    Some(format!(
+        "give `--unit {}` if the box is right then",
+        names[unit]
+    ))
+}
+
+/// The command line that mends the mesh.
+fn command(options: &Check, flags: &str) -> String {
+    let unit = match options.unit.to_string().as_str() {
+        "m" => String::new(),
+        unit => format!(" --unit {unit}"),
+    };
+    let stem = options.mesh.file_stem().unwrap_or_default();
+    let [mesh, out] = [
+        options.mesh.display().to_string(),
+        format!("{}-repaired.obj", stem.to_string_lossy()),
+    ]
+    .map(
+        |name| match name.contains(|c: char| c.is_whitespace() || "'\"&;()$`".contains(c)) {
+            true => format!("'{}'", name.replace('\'', r"'\''")),
+            false => name,
+        },
+    );
+    format!("langevin-rigid repair {mesh}{unit}{flags} --out {out}")
+}

@@ -1,0 +1,129 @@
+//! `langevin-rigid repair`
+
+use std::io::Write as _;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use langevin_rigid_bake::TriMesh;
+use langevin_rigid_bake::mesh::{Options, Step, Unrepaired, repair as mend};
+use langevin_rigid_formats::files;
+use langevin_rigid_formats::mesh::{
+    LengthUnit, MeshFormat, parse_mesh, read_mesh, write_obj, write_stl,
+};
+use serde::Serialize;
+
+use crate::arguments::Repair;
+use crate::bars::Bars;
+
+/// The JSON keys are a contract with scripts.
+#[derive(Serialize)]
+struct Report {
+    steps: Vec<StepReport>,
+    /// Whether the file was written.
+    written: bool,
+    triangles: Option<usize>,
+    volume: Option<f64>,
+}
+
+#[derive(Serialize)]
+pub(crate) struct StepReport {
+    step: &'static str,
+    count: usize,
+    text: String,
+}
+
+impl StepReport {
+    pub(crate) fn new(step: &Step) -> Self {
+        Self {
+            step: step.name(),
+            count: step.count(),
+            text: step.to_string(),
+        }
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+pub(crate) fn repair(options: &Repair, bars: &Bars) -> Result<()> {
+    let format = format(&options.out)?;
+    let raw = read_mesh(&options.mesh, options.unit)?;
+    let choices = Options {
+        weld: options.weld,
+        fill: options.fill,
+        thickness: options.thickness,
+        triangles: options.triangles.map(|n| n as usize),
+        largest: options.largest,
+    };
+    let repaired = mend(&raw.vertices, &raw.triangles, &choices, bars);
+    bars.clear();
+    let written = repaired
+        .body
+        .map_err(|e| unmended(options, &e))
+        .and_then(|body| {
+            write(&options.out, format, &body)?;
+            Ok(body)
+        });
+    let report = Report {
+        steps: repaired.steps.iter().map(StepReport::new).collect(),
+        written: written.is_ok(),
+        triangles: written.as_ref().ok().map(|body| body.triangles().len()),
+        volume: written.as_ref().ok().map(TriMesh::volume),
+    };
+    let text = match options.json {
+        true => serde_json::to_string_pretty(&report)? + "\n",
+        false => lines(&report, &options.out),
+    };
+    std::io::stdout().write_all(text.as_bytes())?;
+    written.map(|_| ())
+}
+
+fn unmended(options: &Repair, error: &Unrepaired) -> anyhow::Error {
+    let place = options.mesh.display();
+    anyhow::anyhow!("{place}: {error}; nothing was written")
+}
+
+fn format(out: &Path) -> Result<MeshFormat> {
+    match MeshFormat::of_extension(out) {
+        Some(format @ (MeshFormat::Obj | MeshFormat::Stl)) => Ok(format),
+        _ => bail!(
+            "cannot write `{}`: the file must end in .obj or .stl",
+            out.display()
+        ),
+    }
+}
+
+/// Writes the body, if it is still one when it is read back.
+fn write(out: &Path, format: MeshFormat, body: &TriMesh) -> Result<()> {
+    let mut bytes = Vec::new();
+    match format {
+        MeshFormat::Stl => write_stl(body, &mut bytes)?,
+        _ => write_obj(body, &mut bytes)?,
+    }
+    parse_mesh(&bytes, format, LengthUnit::M, None)?
+        .body()
+        .with_context(|| {
+            "written as STL, which rounds to single precision and tells equal vertices apart by nothing, \
+             it would be no body; write .obj (nothing was written)"
+        })?;
+    Ok(files::write(out, &bytes)?)
+}
+
+fn lines(report: &Report, out: &Path) -> String {
+    let mut text = String::new();
+    for step in &report.steps {
+        text += &step.text;
+        text.push('\n');
+    }
+    if report.steps.is_empty() && report.written {
+        text += "nothing to mend\n";
+    }
+    if let (Some(triangles), Some(volume)) = (report.triangles, report.volume) {
+        text += &format!(
+            "{}: a body of {triangles} triangles and {volume:.6e} m^3, in metres\n",
+            out.display()
+        );
+    }
+    text
+}
