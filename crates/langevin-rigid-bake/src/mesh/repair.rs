@@ -103,7 +103,7 @@ fn mend(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<TriMesh, Unrepaired> {
-    let stages: [(&str, Stage); 10] = [
+    let stages: [(&str, Stage); 11] = [
         ("dropping the unusable", drop_unusable),
         ("welding", weld::weld),
         ("triangles without area", degenerate::resolve),
@@ -111,6 +111,7 @@ fn mend(
         ("orientation", orient::agree),
         ("holes", holes::fill),
         ("triangles without area", degenerate::resolve),
+        ("duplicates", duplicates::drop),
         ("orientation", orient::agree),
         ("components", parts::keep_largest),
         ("splitting", split::split),

@@ -522,3 +522,32 @@ proptest! {
         prop_assert_eq!(again.body.unwrap(), TriMesh { turned: false, ..body });
     }
 }
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    /// On a grid of few points triangles meet in every way there is.
+    #[test]
+    fn what_is_left_of_any_soup_is_not_what_repair_mends(
+        triangles in proptest::collection::vec([0u32..18, 0u32..18, 0u32..18], 4..40),
+        fill in proptest::option::of(3usize..20),
+        largest in any::<bool>(),
+    ) {
+        let place = |i: u32| [f64::from(i % 3), f64::from(i / 3 % 3), f64::from(i / 9)];
+        let vertices: Vec<[f64; 3]> = (0..18).map(place).collect();
+        let options = Options { fill, largest, ..Options::default() };
+        let repaired = mended(&(vertices, triangles), &options);
+        let mended = matches!(
+            repaired.body,
+            Err(Unrepaired::NoBody(
+                MeshError::DegenerateTriangle { .. }
+                    | MeshError::DuplicateTriangle { .. }
+                    | MeshError::InconsistentOrientation { .. }
+                    | MeshError::NonManifoldVertex { .. }
+                    | MeshError::IndexOutOfRange { .. }
+                    | MeshError::NonFiniteVertex { .. }
+            ))
+        );
+        prop_assert!(!mended, "{:?} {:?}", repaired.steps, repaired.body);
+    }
+}
