@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use anyhow::{Result, bail};
 use langevin_rigid::{Hull, Integrator, Model};
-use langevin_rigid_formats::export::{self, ExportError, Options, Recording};
+use langevin_rigid_formats::export::{self, ExportError, Format, Options, Recording};
 use langevin_rigid_formats::scene::{self, Scene};
 use langevin_rigid_formats::trajectory::Trajectory;
 use langevin_rigid_formats::{baking, files};
@@ -50,7 +50,7 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
         bake: &baked.bake,
         trajectories: &trajectories,
     };
-    write_all(options, &folder, &run, &shot, &mut summary)?;
+    let formats = write_all(options, &folder, &run, &shot, &mut summary)?;
     let film = match &options.frames {
         Some(folder) => Some(pictures::film(&shot, folder, options.fps, bars)?),
         None => None,
@@ -60,7 +60,8 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     if let Some(film) = film {
         film.tell(options.json)?;
     }
-    fail_if_diverged(&falls, &folder)
+    fail_if_diverged(&falls, &folder)?;
+    Ok(formats?)
 }
 
 /// What a body did before it diverged is kept all the same.
@@ -106,26 +107,31 @@ pub(crate) fn set_model(model: Option<Model>, scene: &mut Scene) {
     }
 }
 
-/// The trajectory first: it is what cannot be made again cheaply.
+/// The trajectory first: it is what cannot be made again cheaply. Gives why a format is missing, if one is.
 fn write_all(
     options: &Simulate,
     folder: &Path,
     run: &Recording<'_>,
     shot: &Shot<'_>,
     summary: &mut Summary,
-) -> Result<()> {
+) -> Result<Result<(), ExportError>> {
     let started = Instant::now();
     let how = Options {
         fps: options.fps,
         ..Options::default()
     };
+    let mut write = |format: Format| -> Result<(), ExportError> {
+        let straying = export::write(run, format, folder, &how)?;
+        summary.wrote(format, straying, options.fps, &run.bake.body);
+        Ok(())
+    };
+    let mut written = Ok(());
     for &format in &options.format {
-        match export::write(run, format, folder, &how) {
-            Ok(straying) => summary.wrote(format, straying, options.fps, &run.bake.body),
-            // The other files may still come out.
-            Err(error @ ExportError::Write(_)) => return Err(error.into()),
-            Err(error) => summary.warnings.push(format!("no {format}: {error}")),
-        }
+        written = written.and(write(format));
+    }
+    if written.is_err() && !options.format.contains(&Format::Csv) {
+        // What was computed is kept in the format that cannot fail.
+        written = written.and(write(Format::Csv));
     }
     let scene = resolved(run.scene)?;
     files::write(&folder.join("scene.toml"), scene.as_bytes())?;
@@ -142,7 +148,7 @@ fn write_all(
     summary.seconds.picture = started.elapsed().as_secs_f64();
     let json = serde_json::to_string_pretty(&summary)? + "\n";
     files::write(&folder.join("summary.json"), json.as_bytes())?;
-    Ok(())
+    Ok(written)
 }
 
 /// The scene as it was run; a mesh is named by its full path so that the file works anywhere.

@@ -147,6 +147,25 @@ fn a_format_that_was_left_out_says_so_before_anything_is_computed() {
 }
 
 #[test]
+fn a_format_that_fails_takes_no_other_with_it() {
+    let place = Place::new();
+    let file = place.write("ball.toml", &scene(BALL, "duration = 0.1"));
+    let impossible = ["simulate", &file, "--format", "glb,npz", "--fps", "1e12"];
+    place
+        .run(&impossible)
+        .fails_with(&["1000000000000 frames a second of 0.1", "at most"]);
+    let written = files(&place.path("out/ball"));
+    for name in [
+        "trajectory.npz",
+        "trajectory.csv",
+        "scene.toml",
+        "summary.json",
+    ] {
+        assert!(written.contains(&name.into()), "{name}");
+    }
+}
+
+#[test]
 fn what_was_computed_before_it_diverged_is_exported_too() {
     let place = Place::new();
     let run = "duration = 50.0\nmodel = \"published\"";

@@ -25,68 +25,69 @@ pub(super) struct Remedy {
 }
 
 impl Remedy {
-    /// The first of some repairs that works, from the mildest on.
+    /// The first of some repairs that works, from the mildest on; beside a hole to fill, also the first that
+    /// reads it as the rim of a sheet.
     pub(super) fn find(raw: &RawMesh, survey: &Survey, bars: &Bars) -> Remedy {
-        let [low, high] = survey.bounds;
-        let diagonal2: f64 = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum();
-        let thick = Some(TRIED_THICKNESS * diagonal2.sqrt()).filter(|t| *t > 0.0);
-        let mild = Options::default();
-        let largest = Options {
-            largest: true,
-            ..mild
-        };
-        let most = survey
-            .holes
-            .iter()
-            .map(|hole| hole.edges)
-            .max()
-            .unwrap_or(0);
-        let fill = format!(" --fill {most}");
-        let filled = |options: Options| Options {
-            fill: Some(most),
-            ..options
-        };
-        let sheet = |options: Options| Options {
-            thickness: thick,
-            ..options
-        };
-        let tries = [
-            (String::new(), mild),
-            (" --largest".to_owned(), largest),
-            (fill.clone(), filled(mild)),
-            (format!("{fill} --largest"), filled(largest)),
-            (" --thickness LENGTH".to_owned(), sheet(mild)),
-            (" --thickness LENGTH --largest".to_owned(), sheet(largest)),
-        ];
-        let debris = others_are_debris(survey);
         let mut remedy = Remedy::default();
-        for (flags, options) in tries.into_iter().filter(|(_, o)| debris || !o.largest) {
-            // Beside a hole to fill only a sheet is another reading.
-            if remedy.flags.is_some() && options.thickness.is_none() {
+        for (flags, options) in tries(survey) {
+            let is_sheet = options.thickness.is_some();
+            if remedy.flags.is_some() && !is_sheet {
                 continue;
             }
             let repaired = repair(&raw.vertices, &raw.triangles, &options, bars);
             match repaired.body {
-                Ok(_) if remedy.flags.is_some() => {
-                    remedy.sheet_flags = Some(flags);
-                    break;
+                Err(error) => {
+                    remedy.left.get_or_insert(error);
+                    continue;
                 }
+                Ok(_) if remedy.flags.is_some() => remedy.sheet_flags = Some(flags),
                 Ok(body) => {
                     remedy.flags = Some(flags);
                     remedy.steps = repaired.steps;
                     // A sheet's thickness is for its owner to say, and so is what comes of it.
-                    remedy.body = Some(body).filter(|_| options.thickness.is_none());
-                    if options.fill.is_none() {
-                        break;
+                    remedy.body = Some(body).filter(|_| !is_sheet);
+                    if options.fill.is_some() {
+                        continue;
                     }
                 }
-                Err(error) => {
-                    remedy.left.get_or_insert(error);
-                }
             }
+            break;
         }
         remedy
     }
+}
+
+/// Repairs to try, and how they are asked for.
+fn tries(survey: &Survey) -> Vec<(String, Options)> {
+    let [low, high] = survey.bounds;
+    let diagonal2: f64 = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum();
+    let mild = Options::default();
+    let most = survey.holes.iter().map(|hole| hole.edges).max();
+    let filled = Options {
+        fill: Some(most.unwrap_or(0)),
+        ..mild
+    };
+    let sheet = Options {
+        thickness: Some(TRIED_THICKNESS * diagonal2.sqrt()).filter(|t| *t > 0.0),
+        ..mild
+    };
+    let of_largest = others_are_debris(survey);
+    [
+        (String::new(), mild),
+        (format!(" --fill {}", most.unwrap_or(0)), filled),
+        (" --thickness LENGTH".to_owned(), sheet),
+    ]
+    .into_iter()
+    .flat_map(|(flags, options)| {
+        let largest = Options {
+            largest: true,
+            ..options
+        };
+        let with_largest = (format!("{flags} --largest"), largest);
+        [Some((flags, options)), of_largest.then_some(with_largest)]
+    })
+    .flatten()
+    .collect()
 }
 
 /// Whether all components but the largest are small or inside it, so that dropping them is not to lose a
