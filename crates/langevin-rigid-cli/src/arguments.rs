@@ -56,11 +56,11 @@ Examples:
   langevin-rigid simulate business-card --view front --frames frames
   langevin-rigid simulate leaf --bodies 100 --format glb,usd
 
-Writes into DIR: the trajectory in each FORMAT, trajectory.png, summary.json and scene.toml, the scene
-with every choice spelled out.
+Writes into DIR: the trajectory in each FORMAT, trajectory.png, summary.json and scene.toml, the
+scene with every choice spelled out.
 
-Formats: csv, npz and parquet are tables of every step (world frame, +Y up; metres, seconds, radians);
-glb (glTF) and usd (OpenUSD) are animations with the body's mesh.")]
+Formats: csv, npz and parquet are tables of every step (world frame, +Y up; metres, seconds,
+radians); glb (glTF) and usd (OpenUSD) are animations with the body's mesh.")]
 pub(crate) struct Simulate {
     /// A built-in scene (see `langevin-rigid scenes`) or a scene file.
     #[arg(default_value = "leaf")]
@@ -120,8 +120,8 @@ Examples:
   langevin-rigid export out/leaf --format npz,parquet --out tables
 
 Reads trajectory.csv and scene.toml, which `simulate` wrote into RUN. The formats are those of
-`simulate`: csv, npz and parquet have every step, glb and usd have frames. glb has +Y up by definition,
-which programs turn to their own axes; --up is for the others.")]
+`simulate`: csv, npz and parquet have every step, glb and usd have frames. glb has +Y up by
+definition, which programs turn to their own axes; --up is for the others.")]
 pub(crate) struct Export {
     /// Folder that `simulate` wrote.
     pub(crate) run: PathBuf,
@@ -265,8 +265,8 @@ Examples:
   langevin-rigid added-mass hull.stl --format sdf
   langevin-rigid added-mass hull.stl --format mujoco > hull_fluid.py
 
-The tensor is 6 x 6, linear part first, axes of the mesh, in SI (kg, kg m, kg m^2). Every format states
-its conventions; docs/destinations says what to do with it.
+The tensor is 6 x 6, linear part first, axes of the mesh, in SI (kg, kg m, kg m^2). Every format
+states its conventions; docs/destinations says what to do with it.
 Reads OBJ, STL, PLY, glTF and GLB.")]
 pub(crate) struct AddedMass {
     /// The mesh file.
@@ -325,8 +325,8 @@ Examples:
   langevin-rigid repair leaf.obj --unit cm --thickness 0.0002 --out leaf.stl
   langevin-rigid repair scan.ply --triangles 5000 --out proxy.obj
 
-FILE is OBJ or STL by its extension, in metres, and is written only if it holds a body. A mesh that is
-one already is written as it is.")]
+FILE is OBJ or STL by its extension, in metres, and is written only if it holds a body. A mesh
+that is one already is written as it is.")]
 pub(crate) struct Repair {
     /// The mesh file.
     pub(crate) mesh: PathBuf,
