@@ -50,4 +50,4 @@ def test_our_parameters_come_along(leaf):
     summary = json.loads((leaf.folder / "summary.json").read_text())
     assert run["model"] == summary["model"] and run["fluid_density_kg_m3"] == 1.204
     assert body["mass_kg"] == summary["mass"] and len(body["added_mass_kg"]) == 36
-    assert run["largest_position_error_m"] == summary["straying"]["glb"]["position"]
+    assert run["largest_position_error_m"] == summary["deviation"]["glb"]["position"]

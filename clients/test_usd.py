@@ -43,7 +43,7 @@ def test_time_and_scale(stage, run):
 def test_the_samples_are_the_trajectory(stage, run):
     """The transform of every body, at frames and as usd-core interpolates between them."""
     geometry, gf = client("pxr.UsdGeom"), client("pxr.Gf")
-    summary = json.loads((run.folder / "summary.json").read_text())["straying"]["usd"]
+    summary = json.loads((run.folder / "summary.json").read_text())["deviation"]["usd"]
     up = geometry.GetStageUpAxis(stage)
     for body in range(run.bodies):
         prim = stage.GetPrimAtPath(f"/World/leaf_{body}")

@@ -35,17 +35,17 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     }
     let mut out = std::io::stdout().lock();
     for &format in &options.format {
-        let straying = export::write(&run, format, folder, &how)?;
+        let deviation = export::write(&run, format, folder, &how)?;
         let path = folder.join(format.file_name());
         write!(out, "wrote {}", path.display())?;
-        if let Some(straying) = straying {
+        if let Some(deviation) = deviation {
             write!(
                 out,
-                ": {} frames a second, within {straying} of the trajectory",
+                ": {} frames a second, within {deviation} of the trajectory",
                 options.fps
             )?;
             let length = 2.0 * baked.bake.body.half_extents[0];
-            if let Some(warning) = straying.warning(options.fps, length) {
+            if let Some(warning) = deviation.warning(options.fps, length) {
                 eprintln!("warning: {format}: {warning}");
             }
         }

@@ -121,8 +121,8 @@ fn write_all(
         ..Options::default()
     };
     let mut write = |format: Format| -> Result<(), ExportError> {
-        let straying = export::write(run, format, folder, &how)?;
-        summary.wrote(format, straying, options.fps, &run.bake.body);
+        let deviation = export::write(run, format, folder, &how)?;
+        summary.wrote(format, deviation, options.fps, &run.bake.body);
         Ok(())
     };
     let mut written = Ok(());
@@ -196,8 +196,8 @@ fn tell(options: &Simulate, folder: &Path, summary: &Summary) -> Result<()> {
         summary.seconds.run,
         1e6 * summary.seconds.per_step
     )?;
-    for (format, straying) in &summary.straying {
-        writeln!(out, "  {format} within {straying} of the trajectory")?;
+    for (format, deviation) in &summary.deviation {
+        writeln!(out, "  {format} within {deviation} of the trajectory")?;
     }
     writeln!(
         out,

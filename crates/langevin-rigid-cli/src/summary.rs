@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use langevin_rigid::{Body, State, Stepper};
 use langevin_rigid_formats::baking::{Baked, reynolds};
-use langevin_rigid_formats::export::{Format, Straying};
+use langevin_rigid_formats::export::{Deviation, Format};
 use langevin_rigid_formats::scene::Scene;
 use serde::Serialize;
 
@@ -39,7 +39,7 @@ pub(crate) struct Summary {
     pub(crate) energy: Energy,
     pub(crate) added_mass_error_estimate: f64,
     /// How far each animation strays from the trajectory.
-    pub(crate) straying: BTreeMap<&'static str, Straying>,
+    pub(crate) deviation: BTreeMap<&'static str, Deviation>,
     /// What was written besides this and the scene.
     pub(crate) files: Vec<String>,
     pub(crate) warnings: Vec<String>,
@@ -102,7 +102,7 @@ impl Summary {
             terminal_speed: terminal_speed(states),
             energy: energy(scene, baked, stepper, first, last),
             added_mass_error_estimate: baked.bake.error_estimate,
-            straying: BTreeMap::new(),
+            deviation: BTreeMap::new(),
             files: Vec::new(),
             warnings: baked.bake.warnings.clone(),
             bake_cached: baked.cached,
@@ -114,18 +114,18 @@ impl Summary {
     pub(crate) fn wrote(
         &mut self,
         format: Format,
-        straying: Option<Straying>,
+        deviation: Option<Deviation>,
         fps: f64,
         body: &Body,
     ) {
         self.files.push(format.file_name().into());
-        let Some(straying) = straying else { return };
-        let warning = straying.warning(fps, 2.0 * body.half_extents[0]);
+        let Some(deviation) = deviation else { return };
+        let warning = deviation.warning(fps, 2.0 * body.half_extents[0]);
         // Of two animations of one run the same is to be said.
-        if self.straying.is_empty() {
+        if self.deviation.is_empty() {
             self.warnings.extend(warning);
         }
-        self.straying.insert(format.name(), straying);
+        self.deviation.insert(format.name(), deviation);
     }
 }
 

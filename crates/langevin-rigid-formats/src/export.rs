@@ -2,7 +2,7 @@
 //!
 //! A [`Recording`] is a run: the scene, its bake, and where every body went. [`write()`] puts it into a folder
 //! in a [`Format`]. Tables have every step. Animations have frames at equal times, between which programs
-//! interpolate; [`Straying`] says how far that takes the bodies from where they were.
+//! interpolate; [`Deviation`] says how far that takes the bodies from where they were.
 
 mod animation;
 mod format;
@@ -22,7 +22,7 @@ use std::path::Path;
 
 use langevin_rigid::Bake;
 
-pub use animation::Straying;
+pub use animation::Deviation;
 pub use format::{Format, UnknownFormat};
 pub use up::{UnknownUp, Up};
 
@@ -144,8 +144,8 @@ pub enum ExportError {
 /// let fall = [Trajectory::new(0, &states)];
 /// let recording = Recording { scene: &scene, bake: &bake, trajectories: &fall };
 /// let folder = tempfile::tempdir()?;
-/// let straying = write(&recording, Format::Glb, folder.path(), &Options::default())?;
-/// assert!(straying.is_some_and(|s| s.position < 3e-5)); // of 3 mm fallen
+/// let deviation = write(&recording, Format::Glb, folder.path(), &Options::default())?;
+/// assert!(deviation.is_some_and(|s| s.position < 3e-5)); // of 3 mm fallen
 /// assert!(folder.path().join("trajectory.glb").is_file());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -157,7 +157,7 @@ pub fn write(
     format: Format,
     folder: &Path,
     options: &Options,
-) -> Result<Option<Straying>, ExportError> {
+) -> Result<Option<Deviation>, ExportError> {
     let path = folder.join(format.file_name());
     let trajectories = || options.up.of(recording.trajectories);
     match format {
@@ -168,14 +168,14 @@ pub fn write(
         #[cfg(not(feature = "parquet"))]
         Format::Parquet => Err(ExportError::NotBuilt { format }),
         Format::Glb => {
-            let (bytes, straying) = gltf::glb(recording, options.fps)?;
+            let (bytes, deviation) = gltf::glb(recording, options.fps)?;
             files::write(&path, &bytes)?;
-            Ok(Some(straying))
+            Ok(Some(deviation))
         }
         Format::Usd => {
-            let (layer, straying) = usd::Layer::new(recording, options)?;
+            let (layer, deviation) = usd::Layer::new(recording, options)?;
             files::write_with(&path, |out| layer.write(out))?;
-            Ok(Some(straying))
+            Ok(Some(deviation))
         }
     }
 }
@@ -183,7 +183,7 @@ pub fn write(
 fn table(
     path: &Path,
     content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<Option<Straying>, ExportError> {
+) -> Result<Option<Deviation>, ExportError> {
     files::write_with(path, content)?;
     Ok(None)
 }

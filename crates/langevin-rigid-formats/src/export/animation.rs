@@ -15,7 +15,7 @@ use crate::trajectory::Trajectory;
 /// Between frames positions go on straight lines and orientations on the shorter arc (slerp), as glTF and
 /// USD have it. Compared at every pose of the trajectory, the rounding of the file's numbers included.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-pub struct Straying {
+pub struct Deviation {
     /// Distance (m).
     pub position: f64,
     /// Angle (rad).
@@ -24,12 +24,12 @@ pub struct Straying {
 
 /// Share of the body's length, and angle (rad), beyond which the motion between frames is another one:
 /// most often the body turns by more than a right angle from frame to frame.
-const LARGE: Straying = Straying {
+const LARGE: Deviation = Deviation {
     position: 0.2,
     rotation: 0.35,
 };
 
-impl Straying {
+impl Deviation {
     /// What to do about an animation of `fps` frames a second that strays too far for a body of some
     /// `length` (m), if it does.
     pub fn warning(&self, fps: f64, length: f64) -> Option<String> {
@@ -53,7 +53,7 @@ impl Straying {
     }
 }
 
-impl fmt::Display for Straying {
+impl fmt::Display for Deviation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (millimetres, degrees) = (1e3 * self.position, self.rotation.to_degrees());
         write!(f, "{millimetres:.2} mm and {degrees:.2} degrees")
@@ -124,12 +124,12 @@ impl Animation {
     }
 
     /// How far it strays from the trajectories it was made of.
-    pub(super) fn straying(&self, trajectories: &[Trajectory]) -> Straying {
+    pub(super) fn deviation(&self, trajectories: &[Trajectory]) -> Deviation {
         self.tracks
             .par_iter()
             .zip(trajectories)
-            .map(|(track, trajectory)| track.straying(&trajectory.poses))
-            .reduce(Straying::default, Straying::worse)
+            .map(|(track, trajectory)| track.deviation(&trajectory.poses))
+            .reduce(Deviation::default, Deviation::worse)
     }
 }
 
@@ -165,15 +165,15 @@ impl Track {
         )
     }
 
-    fn straying(&self, poses: &[Pose]) -> Straying {
-        let mut worst = Straying::default();
+    fn deviation(&self, poses: &[Pose]) -> Deviation {
+        let mut worst = Deviation::default();
         let mut passed = 0;
         for pose in poses {
             while passed < self.times.len() && self.times[passed] <= pose.time {
                 passed += 1;
             }
             let (position, orientation) = self.shown(passed, pose.time);
-            worst = worst.worse(Straying {
+            worst = worst.worse(Deviation {
                 position: distance(position, pose.position),
                 rotation: angle(orientation, pose.orientation),
             });
@@ -220,15 +220,15 @@ mod tests {
         Animation::new(trajectories, frames, |t| t).unwrap()
     }
 
-    fn straying(spin: f64, fps: u32) -> Straying {
+    fn deviation(spin: f64, fps: u32) -> Deviation {
         let trajectories = thrown(spin);
-        animation(&trajectories, f64::from(fps)).straying(&trajectories)
+        animation(&trajectories, f64::from(fps)).deviation(&trajectories)
     }
 
     #[test]
     fn a_parabola_strays_by_its_sagitta_and_an_even_turn_not_at_all() {
         for fps in [10, 20, 50] {
-            let Straying { position, rotation } = straying(7.0, fps);
+            let Deviation { position, rotation } = deviation(7.0, fps);
             // The chord of g t^2 / 2 over h is g h^2 / 8 away.
             let sagitta = 9.81 / f64::from(8 * fps * fps);
             assert!((position / sagitta - 1.0).abs() < 1e-9, "{position}");
@@ -239,8 +239,8 @@ mod tests {
     #[test]
     fn turns_of_more_than_half_a_revolution_a_frame_show() {
         // 200 rad/s at 60 frames a second: 3.33 rad a frame go the other way round.
-        assert!(straying(200.0, 60).rotation > 1.5);
-        assert!(straying(200.0, 125).rotation < 1e-12);
+        assert!(deviation(200.0, 60).rotation > 1.5);
+        assert!(deviation(200.0, 125).rotation < 1e-12);
     }
 
     #[test]
@@ -254,17 +254,28 @@ mod tests {
         let track = &animation.tracks[1];
         assert_eq!(track.numbers, [0.0, 1.0, 2.0, 2.5]);
         assert_eq!(track.positions[3], trajectories[1].poses[250].position);
-        let whole = animation.straying(&trajectories).position;
+        let whole = animation.deviation(&trajectories).position;
         assert!((whole / 0.012_262_5 - 1.0).abs() < 1e-9, "{whole}");
+    }
+
+    #[test]
+    fn a_motion_that_looks_like_another_asks_for_more_frames() {
+        let warning = |position, rotation| {
+            let deviation = Deviation { position, rotation };
+            deviation.warning(24.0, 0.1)
+        };
+        assert_eq!(warning(0.019, 0.34), None);
+        assert!(warning(0.0, 3.14).is_some_and(|w| w.contains("use --fps 72 or more")));
+        assert!(warning(0.021, 0.0).is_some_and(|w| w.contains("use --fps 48 or more")));
     }
 
     #[test]
     fn rounding_is_part_of_it() {
         let trajectories = thrown(1.0);
         let animation = animation(&trajectories, 1000.0);
-        assert!(animation.straying(&trajectories).position < 1e-14);
+        assert!(animation.deviation(&trajectories).position < 1e-14);
         let coarse = animation.rounded(|x| (100.0 * x).round() / 100.0, |q| q);
-        let position = coarse.straying(&trajectories).position;
+        let position = coarse.deviation(&trajectories).position;
         assert!((0.004..0.0071).contains(&position), "{position}");
     }
 }

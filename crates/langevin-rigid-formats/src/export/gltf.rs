@@ -10,7 +10,7 @@ use super::animation::{Animation, Track};
 use super::frames::Frames;
 use super::parameters::{KEY, of_body, of_run};
 use super::shading::corner_normals;
-use super::{ExportError, Recording, Straying, Up};
+use super::{Deviation, ExportError, Recording, Up};
 
 /// Frames that single precision can tell apart.
 const SINGLES: usize = 1 << 24;
@@ -21,14 +21,17 @@ const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 /// The bytes of the file, and how far the animation strays.
-pub(super) fn glb(recording: &Recording<'_>, fps: f64) -> Result<(Vec<u8>, Straying), ExportError> {
+pub(super) fn glb(
+    recording: &Recording<'_>,
+    fps: f64,
+) -> Result<(Vec<u8>, Deviation), ExportError> {
     let frames = Frames::of(recording.trajectories, fps)?;
     let animation = Animation::new(recording.trajectories, frames, single)?.rounded(single, single);
     let apart = |track: &Track| track.times.windows(2).all(|pair| pair[0] < pair[1]);
     if !animation.tracks.iter().all(apart) {
         return Err(frames.too_many(SINGLES));
     }
-    let straying = animation.straying(recording.trajectories);
+    let deviation = animation.deviation(recording.trajectories);
     let mut file = File::default();
     let mesh = file.mesh(recording);
     let animations = file.animation(&recording.scene.name, &animation);
@@ -38,7 +41,7 @@ pub(super) fn glb(recording: &Recording<'_>, fps: f64) -> Result<(Vec<u8>, Stray
         "scenes": [{
             "name": recording.scene.name,
             "nodes": (0..animation.tracks.len()).collect::<Vec<_>>(),
-            "extras": { KEY: of_run(recording, Up::Y, fps, straying) },
+            "extras": { KEY: of_run(recording, Up::Y, fps, deviation) },
         }],
         "nodes": nodes(&recording.scene.name, &animation.tracks),
         "meshes": [mesh],
@@ -55,7 +58,7 @@ pub(super) fn glb(recording: &Recording<'_>, fps: f64) -> Result<(Vec<u8>, Stray
         "bufferViews": file.views,
         "buffers": [{ "byteLength": file.bytes.len() }],
     });
-    Ok((container(&document, &file.bytes)?, straying))
+    Ok((container(&document, &file.bytes)?, deviation))
 }
 
 /// To single precision and back.

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Recording, Straying, Up};
+use super::{Deviation, Recording, Up};
 
 /// The key under which all of it stands.
 pub(super) const KEY: &str = "langevin_rigid";
@@ -12,7 +12,7 @@ pub(super) fn of_run(
     recording: &Recording<'_>,
     up: Up,
     fps: f64,
-    straying: Straying,
+    deviation: Deviation,
 ) -> Map<String, Value> {
     let scene = recording.scene;
     object(json!({
@@ -29,8 +29,8 @@ pub(super) fn of_run(
         "fluid_kinematic_viscosity_m2_s": scene.fluid.viscosity,
         "fluid_velocity_m_s": up.vector(scene.fluid.velocity),
         "frames_per_second": fps,
-        "largest_position_error_m": straying.position,
-        "largest_rotation_error_rad": straying.rotation,
+        "largest_position_error_m": deviation.position,
+        "largest_rotation_error_rad": deviation.rotation,
     }))
 }
 

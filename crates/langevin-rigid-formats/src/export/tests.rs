@@ -116,10 +116,10 @@ fn turned(a: [f64; 4], b: [f64; 4], part: f64) -> [f64; 4] {
 }
 
 /// The largest distance and angle between a body in the file and its trajectory.
-fn measured(glb: &Glb, number: usize, trajectory: &Trajectory) -> Straying {
+fn measured(glb: &Glb, number: usize, trajectory: &Trajectory) -> Deviation {
     let (times, positions) = glb.channel(2 * number);
     let (_, orientations) = glb.channel(2 * number + 1);
-    let mut worst = Straying::default();
+    let mut worst = Deviation::default();
     for pose in &trajectory.poses {
         let after = times
             .partition_point(|t| *t <= pose.time)
@@ -185,7 +185,7 @@ fn a_glb_strays_as_far_as_it_says_slerp_and_all() {
                 "{key}: {said} {wanted}"
             );
         }
-        let found: Vec<Straying> = (0..2)
+        let found: Vec<Deviation> = (0..2)
             .map(|body| measured(&glb, body, &trajectories[body]))
             .collect();
         let position = found[0].position.max(found[1].position);

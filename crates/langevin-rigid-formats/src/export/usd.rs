@@ -12,7 +12,7 @@ use super::animation::{Animation, Track};
 use super::frames::Frames;
 use super::parameters::{KEY, of_body, of_run};
 use super::shading::corner_normals;
-use super::{ExportError, Options, Recording, Straying};
+use super::{Deviation, ExportError, Options, Recording};
 
 /// Decimals of quaternions.
 const TURN_DECIMALS: i32 = 7;
@@ -29,7 +29,7 @@ pub(super) struct Layer<'a> {
     options: Options,
     frames: Frames,
     animation: Animation,
-    straying: Straying,
+    deviation: Deviation,
     /// Decimals of positions.
     decimals: i32,
 }
@@ -38,23 +38,23 @@ impl<'a> Layer<'a> {
     pub(super) fn new(
         recording: &'a Recording<'a>,
         options: &Options,
-    ) -> Result<(Self, Straying), ExportError> {
+    ) -> Result<(Self, Deviation), ExportError> {
         let trajectories = options.up.of(recording.trajectories);
         let frames = Frames::of(&trajectories, options.fps)?;
         let size = recording.bake.body.half_extents[0];
         let decimals = (-libm::log10(FINE * size)).ceil().clamp(6.0, 15.0) as i32;
         let animation = Animation::new(&trajectories, frames, |time| time)?
             .rounded(rounding(decimals), rounding(TURN_DECIMALS));
-        let straying = animation.straying(&trajectories);
+        let deviation = animation.deviation(&trajectories);
         let layer = Self {
             recording,
             options: *options,
             frames,
             animation,
-            straying,
+            deviation,
             decimals,
         };
-        Ok((layer, straying))
+        Ok((layer, deviation))
     }
 
     pub(super) fn write(&self, out: &mut impl io::Write) -> io::Result<()> {
@@ -74,7 +74,7 @@ impl<'a> Layer<'a> {
         let ends = self.animation.tracks.iter().flat_map(|t| t.numbers.last());
         let first = fps * start;
         let last = first + ends.fold(0.0, |last: f64, end| last.max(*end));
-        let run = of_run(self.recording, self.options.up, fps, self.straying);
+        let run = of_run(self.recording, self.options.up, fps, self.deviation);
         format!(
             "#usda 1.0\n(\n    \
              defaultPrim = \"World\"\n    \
