@@ -42,10 +42,16 @@ def y_up(v):
     return [v[0], v[2], -v[1]]
 
 
-@pytest.mark.parametrize("name", ["trajectory.glb", "trajectory.usda"])
-def test_bodies_are_where_they_were(run, name):
+@pytest.mark.parametrize("name, up", [("trajectory.glb", "y"), ("trajectory.usda", "y"),
+                                      ("trajectory.usda", "z")])
+def test_bodies_are_where_they_were(run, command, tmp_path, name, up):
+    folder = run.folder
+    if up == "z":
+        folder = tmp_path
+        command("export", run.folder, "--format", "usd", "--fps", run.fps, "--up", up,
+                "--out", folder)
     frames = run.frames(0)
-    found = opened(run.folder / name, run.fps, frames)
+    found = opened(folder / name, run.fps, frames)
     assert found["meshes"] == 1
     assert found["metres"] == 1
     for frame, bodies in zip(frames, found["frames"], strict=True):

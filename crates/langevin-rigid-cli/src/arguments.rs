@@ -92,7 +92,8 @@ pub(crate) struct Simulate {
     /// Write a film into this folder as frame-00001.png, frame-00002.png, ...
     #[arg(long, value_name = "DIR")]
     pub(crate) frames: Option<PathBuf>,
-    /// Bodies to drop side by side, scattered as the scene says; they do not meet.
+    /// Bodies to drop side by side, scattered as the scene says; they do not meet. Picture, film and
+    /// summary are of the first.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) bodies: u32,
     /// Formats of the trajectory, with commas between them: csv, npz, parquet, glb, usd.

@@ -17,8 +17,9 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     export::check(&options.format)?;
     let folder = options.out.as_deref().unwrap_or(&options.run);
     keep_the_table(options, folder)?;
-    let trajectories = trajectories(&options.run)?;
-    let scene = scene_of(&options.run)?;
+    let summary = summary(&options.run);
+    let trajectories = trajectories(&options.run, &summary)?;
+    let scene = scene_of(&options.run, &summary)?;
     let baked = cache::bake(&scene, bars)?;
     bars.clear();
     let run = Recording {
@@ -67,7 +68,7 @@ fn keep_the_table(options: &Export, folder: &Path) -> Result<()> {
     Ok(())
 }
 
-fn trajectories(run: &Path) -> Result<Vec<Trajectory>> {
+fn trajectories(run: &Path, summary: &Value) -> Result<Vec<Trajectory>> {
     let path = run.join(Format::Csv.file_name());
     let table = std::fs::read_to_string(&path).with_context(|| {
         format!(
@@ -76,18 +77,28 @@ fn trajectories(run: &Path) -> Result<Vec<Trajectory>> {
             path.display()
         )
     })?;
+    if let Some(files) = summary["files"].as_array()
+        && !files.iter().any(|file| file == Format::Csv.file_name())
+    {
+        bail!(
+            "`{}` is of an older run: the last one in this folder was not asked for csv; simulate it \
+             again with csv among its formats",
+            path.display()
+        );
+    }
     read_csv(&table).with_context(|| path.display().to_string())
 }
 
+/// What the run said of itself; nothing where that is lost.
+fn summary(run: &Path) -> Value {
+    let bytes = std::fs::read(run.join("summary.json")).ok();
+    let summary = bytes.and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    summary.unwrap_or_default()
+}
+
 /// The scene of a run, by the name it had.
-fn scene_of(run: &Path) -> Result<Scene> {
-    let path = run.join("scene.toml");
-    let scene = scene::find(&path.display().to_string())?;
-    let summary = std::fs::read(run.join("summary.json")).ok();
-    let summary = summary.and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
-    let name = summary.as_ref().and_then(|s| s["scene"].as_str());
-    Ok(Scene {
-        name: name.map_or(scene.name.clone(), str::to_owned),
-        ..scene
-    })
+fn scene_of(run: &Path, summary: &Value) -> Result<Scene> {
+    let scene = scene::find(&run.join("scene.toml").display().to_string())?;
+    let name = summary["scene"].as_str().unwrap_or(&scene.name).to_owned();
+    Ok(Scene { name, ..scene })
 }

@@ -147,6 +147,20 @@ fn a_format_that_was_left_out_says_so_before_anything_is_computed() {
 }
 
 #[test]
+fn the_table_of_an_older_run_is_not_taken_for_that_of_the_last() {
+    let place = Place::new();
+    let file = place.write("ball.toml", &scene(BALL, "duration = 0.1"));
+    place.run(&["simulate", &file, "--out", "run"]);
+    assert_eq!(place.run(&["export", "run"]).code, 0);
+    place.run(&[
+        "simulate", &file, "--seed", "9", "--format", "glb", "--out", "run",
+    ]);
+    place
+        .run(&["export", "run", "--format", "usd"])
+        .fails_with(&["run/trajectory.csv", "older run", "csv among its formats"]);
+}
+
+#[test]
 fn a_format_that_fails_takes_no_other_with_it() {
     let place = Place::new();
     let file = place.write("ball.toml", &scene(BALL, "duration = 0.1"));
