@@ -19,7 +19,7 @@ const PER_PAIR: f64 = 6.7e-9;
 const CLUSTERS: f64 = 2.9e-5;
 const CLUSTERS_POWER: f64 = 1.16;
 /// Allowance for the second solve, without the edge layer, and slower convergence of bodies with edges: not
-/// fitted, but forecasts with it are within 1.8 of what docs/meshes.md lists.
+/// fitted, but forecasts with it are within a factor of two of what docs/meshes.md lists.
 const WITH_EDGES: f64 = 1.5;
 
 /// Change of the tensor by the extrapolation at sharp edges, over the sum of length × height^(4/3) over
