@@ -39,6 +39,12 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     let run_seconds = started.elapsed().as_secs_f64();
 
     let mut summary = Summary::new(&scene, &baked, &stepper, &falls);
+    if falls.len() < options.bodies as usize {
+        let (begun, asked) = (falls.len(), options.bodies);
+        summary.warnings.push(format!(
+            "interrupted: {begun} of {asked} bodies had been released"
+        ));
+    }
     summary.seconds.bake = bake_seconds;
     summary.seconds.run = run_seconds;
     let steps: usize = falls.iter().map(|fall| fall.states.len() - 1).sum();
