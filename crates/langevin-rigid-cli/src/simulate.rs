@@ -39,12 +39,7 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     let run_seconds = started.elapsed().as_secs_f64();
 
     let mut summary = Summary::new(&scene, &baked, &stepper, &falls);
-    if falls.len() < options.bodies as usize {
-        let (begun, asked) = (falls.len(), options.bodies);
-        summary.warnings.push(format!(
-            "interrupted: {begun} of {asked} bodies had been released"
-        ));
-    }
+    summary.warnings.extend(missing(options.bodies, falls.len()));
     summary.seconds.bake = bake_seconds;
     summary.seconds.run = run_seconds;
     let steps: usize = falls.iter().map(|fall| fall.states.len() - 1).sum();
@@ -68,6 +63,11 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     }
     fail_if_diverged(&falls, &folder)?;
     Ok(formats?)
+}
+
+fn missing(asked: u32, begun: usize) -> Option<String> {
+    let some = begun < asked as usize;
+    some.then(|| format!("interrupted: {begun} of {asked} bodies had been released"))
 }
 
 /// What a body did before it diverged is kept all the same.
