@@ -39,7 +39,9 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     let run_seconds = started.elapsed().as_secs_f64();
 
     let mut summary = Summary::new(&scene, &baked, &stepper, &falls);
-    summary.warnings.extend(missing(options.bodies, falls.len()));
+    summary
+        .warnings
+        .extend(missing(options.bodies, falls.len()));
     summary.seconds.bake = bake_seconds;
     summary.seconds.run = run_seconds;
     let steps: usize = falls.iter().map(|fall| fall.states.len() - 1).sum();

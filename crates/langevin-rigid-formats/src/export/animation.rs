@@ -265,7 +265,7 @@ mod tests {
             deviation.warning(24.0, 0.1)
         };
         assert_eq!(warning(0.019, 0.34), None);
-        assert!(warning(0.0, 3.14).is_some_and(|w| w.contains("use --fps 72 or more")));
+        assert!(warning(0.0, 3.1).is_some_and(|w| w.contains("use --fps 72 or more")));
         assert!(warning(0.021, 0.0).is_some_and(|w| w.contains("use --fps 48 or more")));
     }
 
