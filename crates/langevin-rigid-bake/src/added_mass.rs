@@ -47,6 +47,7 @@ mod solver;
 mod sums;
 
 pub use expect::{Expected, Thinnest, expected};
+pub use outcome::SMALL_THICKNESS;
 pub use report::{AddedMassError, MeshQuality, Warning};
 pub use shape::ShapeError;
 

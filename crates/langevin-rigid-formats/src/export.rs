@@ -173,9 +173,9 @@ pub fn write(
             Ok(Some(deviation))
         }
         Format::Usd => {
-            let (layer, deviation) = usd::Layer::new(recording, options)?;
+            let layer = usd::Layer::new(recording, options)?;
             files::write_with(&path, |out| layer.write(out))?;
-            Ok(Some(deviation))
+            Ok(Some(layer.deviation))
         }
     }
 }

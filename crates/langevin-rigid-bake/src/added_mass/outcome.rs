@@ -15,7 +15,8 @@ pub(super) const FACETING: f64 = 0.003;
 const LARGE_ESTIMATE: f64 = 0.01;
 const LARGE_QUADRATURE_ERROR: f64 = 0.02;
 const LARGE_ASPECT: f64 = 1000.0;
-const SMALL_THICKNESS: f64 = 0.02;
+/// [`MeshQuality::thickness_ratio`] below which [`Warning::ThinnerThanTriangles`] is given.
+pub const SMALL_THICKNESS: f64 = 0.02;
 
 impl Flow {
     /// The result in the caller's units.

@@ -97,9 +97,16 @@ impl Animation {
                         body: trajectory.body,
                         error,
                     })?;
-                let numbers = frames.until(motion.end());
+                let mut numbers = frames.until(motion.end());
                 let time = |number: &f64| rounded_time(frames.time(*number));
-                let times = numbers.iter().map(time).collect();
+                let mut times: Vec<f64> = numbers.iter().map(time).collect();
+                if let [.., before, end] = times[..]
+                    && before == end
+                {
+                    // Rounding leaves no time between them: the end is the frame.
+                    numbers.remove(numbers.len() - 2);
+                    times.pop();
+                }
                 Ok(Track::new(trajectory.body, &motion, numbers, times))
             })
             .collect();

@@ -1,6 +1,7 @@
 //! glTF 2.0 in one binary file: +Y up, metres, seconds, x y z w.
 //!
-//! One mesh that all bodies share, one node a body, one animation whose channels share their times.
+//! One mesh that all bodies share, one node a body, one animation; bodies that end together
+//! share their times.
 
 use std::collections::HashMap;
 
@@ -9,7 +10,7 @@ use serde_json::{Value, json};
 use super::animation::{Animation, Track};
 use super::frames::Frames;
 use super::parameters::{KEY, of_body, of_run};
-use super::shading::corner_normals;
+use super::shading::{COLOUR, corner_normals};
 use super::{Deviation, ExportError, Recording, Up};
 
 /// Frames that single precision can tell apart.
@@ -35,6 +36,7 @@ pub(super) fn glb(
     let mut file = File::default();
     let mesh = file.mesh(recording);
     let animations = file.animation(&recording.scene.name, &animation);
+    let [red, green, blue] = COLOUR;
     let document = json!({
         "asset": { "version": "2.0", "generator": concat!("Langevin Rigid ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
@@ -48,7 +50,7 @@ pub(super) fn glb(
         "materials": [{
             "name": "matt",
             "pbrMetallicRoughness": {
-                "baseColorFactor": [0.55, 0.42, 0.16, 1.0],
+                "baseColorFactor": [red, green, blue, 1.0],
                 "metallicFactor": 0.0,
                 "roughnessFactor": 0.8,
             },

@@ -1,6 +1,9 @@
-//! Normals that show a surface as it is: smooth where it bends, sharp at its edges.
+//! How a surface is shown: its colour, and normals that are smooth where it bends and sharp at its edges.
 
 use langevin_rigid::linalg::Vec3;
+
+/// Colour of bodies, linear: that of dry leaves.
+pub(super) const COLOUR: [f64; 3] = [0.55, 0.42, 0.16];
 
 /// Cosine of the largest angle between facets that are shaded as one surface: 30 degrees.
 const SMOOTH: f64 = 0.866_025_403_784_438_6;

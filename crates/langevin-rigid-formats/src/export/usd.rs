@@ -11,7 +11,7 @@ use serde_json::{Map, Value};
 use super::animation::{Animation, Track};
 use super::frames::Frames;
 use super::parameters::{KEY, of_body, of_run};
-use super::shading::corner_normals;
+use super::shading::{COLOUR, corner_normals};
 use super::{Deviation, ExportError, Options, Recording};
 
 /// Decimals of quaternions.
@@ -29,7 +29,7 @@ pub(super) struct Layer<'a> {
     options: Options,
     frames: Frames,
     animation: Animation,
-    deviation: Deviation,
+    pub(super) deviation: Deviation,
     /// Decimals of positions.
     decimals: i32,
 }
@@ -38,23 +38,21 @@ impl<'a> Layer<'a> {
     pub(super) fn new(
         recording: &'a Recording<'a>,
         options: &Options,
-    ) -> Result<(Self, Deviation), ExportError> {
+    ) -> Result<Self, ExportError> {
         let trajectories = options.up.of(recording.trajectories);
         let frames = Frames::of(&trajectories, options.fps)?;
         let size = recording.bake.body.half_extents[0];
         let decimals = (-libm::log10(FINE * size)).ceil().clamp(6.0, 15.0) as i32;
         let animation = Animation::new(&trajectories, frames, |time| time)?
             .rounded(rounding(decimals), rounding(TURN_DECIMALS));
-        let deviation = animation.deviation(&trajectories);
-        let layer = Self {
+        Ok(Self {
             recording,
             options: *options,
             frames,
+            deviation: animation.deviation(&trajectories),
             animation,
-            deviation,
             decimals,
-        };
-        Ok((layer, deviation))
+        })
     }
 
     pub(super) fn write(&self, out: &mut impl io::Write) -> io::Result<()> {
@@ -112,10 +110,11 @@ impl<'a> Layer<'a> {
              normal3f[] normals = {normals} (\n                interpolation = \"faceVarying\"\n            )\n            \
              uniform token orientation = \"rightHanded\"\n            \
              point3f[] points = {points}\n            \
-             color3f[] primvars:displayColor = [(0.55, 0.42, 0.16)]\n            \
+             color3f[] primvars:displayColor = [{colour}]\n            \
              uniform token subdivisionScheme = \"none\"\n        }}\n    }}\n",
             name = identifier(&self.recording.scene.name),
             data = custom_data(&of_body(self.recording), 2),
+            colour = tuple(&COLOUR),
             extent = list(extent.iter().map(|v| tuple(&v.map(single)))),
             counts = list(surface.triangles.iter().map(|_| 3)),
             indices = list(surface.triangles.as_flattened()),

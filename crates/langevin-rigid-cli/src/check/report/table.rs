@@ -2,10 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::{HoleReport, Report};
+use langevin_rigid_bake::added_mass::SMALL_THICKNESS;
 
-/// Walls thinner than this beside their triangles make `added-mass` warn.
-const THIN: f64 = 0.02;
+use super::{HoleReport, Report};
 
 impl Report {
     pub(in crate::check) fn table(&self) -> String {
@@ -159,7 +158,7 @@ impl Report {
             expected.thinnest_wall_over_edge,
             expected.thinnest_wall_at,
         ) {
-            let warning = if ratio < THIN {
+            let warning = if ratio < SMALL_THICKNESS {
                 ", too thin for them"
             } else {
                 ""
