@@ -9,10 +9,10 @@ use langevin_rigid_bake::added_mass::{AddedMass as Solution, Options, added_mass
 use langevin_rigid_formats::added_mass::{
     Proxy, Report, capytaine, csv, json, mujoco, sdf, table, uuv,
 };
-use langevin_rigid_formats::mesh::read_mesh;
 
 use crate::arguments::{About, AddedMass, Format};
 use crate::bars::Bars;
+use crate::meshes;
 
 pub(crate) fn added_mass(options: &AddedMass, bars: &Bars) -> Result<()> {
     let started = Instant::now();
@@ -56,7 +56,7 @@ fn check(options: &AddedMass) -> Result<()> {
 }
 
 fn read(options: &AddedMass) -> Result<TriMesh> {
-    let raw = read_mesh(&options.mesh, options.unit)?;
+    let raw = meshes::read(&options.mesh, options.unit)?;
     match options.thickness {
         Some(thickness) => raw.sheet(thickness),
         None => raw.body(),

@@ -18,6 +18,9 @@ pub(crate) fn folder() -> Option<PathBuf> {
 /// The scene's bake, from the cache if it is there.
 pub(crate) fn bake(scene: &Scene, progress: &dyn Progress) -> Result<Baked, SceneBakeError> {
     let baked = bake_scene(scene, folder().as_deref(), progress)?;
+    for notice in &baked.notices {
+        eprintln!("note: {notice}");
+    }
     if let Some(trouble) = &baked.cache_trouble {
         eprintln!(
             "warning: {trouble}; the bake was not kept (set {VARIABLE} to a writable folder)"

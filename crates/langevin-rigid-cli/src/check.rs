@@ -7,16 +7,16 @@ use std::io::Write as _;
 
 use anyhow::{Result, bail};
 use langevin_rigid_bake::mesh::survey;
-use langevin_rigid_formats::mesh::read_mesh;
 
 use crate::arguments::Check;
 use crate::bars::Bars;
+use crate::meshes;
 use remedy::Remedy;
 use report::Report;
 
 /// Whether the mesh is ready.
 pub(crate) fn check(options: &Check, bars: &Bars) -> Result<bool> {
-    let raw = read_mesh(&options.mesh, options.unit)?;
+    let raw = meshes::read(&options.mesh, options.unit)?;
     let Some(survey) = survey(&raw.vertices, &raw.triangles, bars) else {
         bail!("the check was interrupted");
     };

@@ -11,6 +11,7 @@ mod crowd;
 mod ensemble;
 mod export;
 mod falls;
+mod meshes;
 mod pictures;
 mod regimes;
 mod repair;

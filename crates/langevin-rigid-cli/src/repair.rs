@@ -7,13 +7,12 @@ use anyhow::{Context, Result, bail};
 use langevin_rigid_bake::TriMesh;
 use langevin_rigid_bake::mesh::{Options, Step, Unrepaired, repair as mend};
 use langevin_rigid_formats::files;
-use langevin_rigid_formats::mesh::{
-    LengthUnit, MeshFormat, parse_mesh, read_mesh, write_obj, write_stl,
-};
+use langevin_rigid_formats::mesh::{LengthUnit, MeshFormat, parse_mesh, write_obj, write_stl};
 use serde::Serialize;
 
 use crate::arguments::Repair;
 use crate::bars::Bars;
+use crate::meshes;
 
 /// The JSON keys are a contract with scripts.
 #[derive(Serialize)]
@@ -48,7 +47,7 @@ impl StepReport {
 
 pub(crate) fn repair(options: &Repair, bars: &Bars) -> Result<()> {
     let format = format(&options.out)?;
-    let raw = read_mesh(&options.mesh, options.unit)?;
+    let raw = meshes::read(&options.mesh, options.unit)?;
     let choices = Options {
         weld: options.weld,
         fill: options.fill,

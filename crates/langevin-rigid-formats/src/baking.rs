@@ -49,23 +49,26 @@ pub enum SceneBakeError {
     NoSpeed,
 }
 
-/// The closed mesh of a scene's body.
+/// The closed mesh of a scene's body, and what the reader of its file had to say (see
+/// [`RawMesh::notices`](crate::mesh::RawMesh)).
 ///
 /// # Errors
 /// See [`SceneBakeError`].
-pub fn mesh(scene: &Scene) -> Result<TriMesh, SceneBakeError> {
+pub fn mesh(scene: &Scene) -> Result<(TriMesh, Vec<String>), SceneBakeError> {
     match &scene.body.geometry {
-        Geometry::Shape { shape, triangles } => Ok(shape.mesh(*triangles)?),
+        Geometry::Shape { shape, triangles } => Ok((shape.mesh(*triangles)?, Vec::new())),
         Geometry::Mesh {
             path,
             unit,
             thickness,
         } => {
-            let raw = read_mesh(path, *unit)?;
+            let mut raw = read_mesh(path, *unit)?;
+            let notices = std::mem::take(&mut raw.notices);
             match thickness {
                 Some(t) => raw.sheet(*t),
                 None => raw.body(),
             }
+            .map(|mesh| (mesh, notices))
             .map_err(|error| SceneBakeError::Mesh {
                 source_name: path.display().to_string(),
                 error,
@@ -87,6 +90,8 @@ pub fn needs_history(scene: &Scene) -> bool {
 pub struct Baked {
     /// The bake.
     pub bake: Bake,
+    /// What the reader of the mesh file had to say.
+    pub notices: Vec<String>,
     /// Whether it came from the cache.
     pub cached: bool,
     /// Why the cache could not be read or written, if so; the bake is good all the same.
@@ -103,12 +108,13 @@ pub fn bake_scene(
     cache: Option<&Path>,
     progress: &dyn Progress,
 ) -> Result<Baked, SceneBakeError> {
-    let mesh = mesh(scene)?;
+    let (mesh, notices) = mesh(scene)?;
     let fingerprint = fingerprint(scene, &mesh);
     let place = cache.map(|folder| cache_file(folder, &fingerprint));
     if let Some(bake) = place.as_deref().and_then(|p| from_cache(p, fingerprint)) {
         return Ok(Baked {
             bake,
+            notices,
             cached: true,
             cache_trouble: None,
         });
@@ -118,6 +124,7 @@ pub fn bake_scene(
     let cache_trouble = cache_trouble.map(|e| e.to_string());
     Ok(Baked {
         bake,
+        notices,
         cached: false,
         cache_trouble,
     })

@@ -32,6 +32,8 @@ pub struct RawMesh {
     pub vertices: Vec<[f64; 3]>,
     /// Vertex numbers of each triangle, all below the number of vertices.
     pub triangles: Vec<[u32; 3]>,
+    /// What the reader passed over or took for something else, a sentence each, each kind once a file.
+    pub notices: Vec<String>,
 }
 
 impl RawMesh {
@@ -58,6 +60,7 @@ impl RawMesh {
         RawMesh {
             vertices,
             triangles,
+            ..self
         }
     }
 

@@ -136,7 +136,7 @@ fn time_steps(
 
 fn precomputation(section: &mut Section, progress: &dyn Progress) -> Result<(), ReportError> {
     let scene = scene::find("table2-ellipsoid-1280-5ms")?;
-    let mesh = baking::mesh(&scene)?;
+    let (mesh, _) = baking::mesh(&scene)?;
     let added = median_time(progress, || {
         added_mass(&mesh, &added_mass::Options::default(), &())
             .map(drop)

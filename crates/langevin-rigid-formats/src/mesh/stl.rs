@@ -41,6 +41,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ParseError> {
     Ok(RawMesh {
         vertices: corners,
         triangles,
+        ..RawMesh::default()
     })
 }
 
