@@ -1,6 +1,6 @@
 //! From a mesh to a baked body: mass properties, added mass, characteristic sizes.
 
-use langevin_rigid::{Body, Part, Surface, shift_added_mass};
+use langevin_rigid::{Body, BodyError, Part, Surface, shift_added_mass};
 
 use crate::added_mass::{AddedMass, AddedMassError, Options, added_mass};
 use crate::extents::{characteristic_thickness, half_extents};
@@ -29,6 +29,7 @@ pub struct BodySpec {
 
 /// Why a body could not be baked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BodyBakeError {
     /// The mass properties are impossible.
     #[error(transparent)]
@@ -39,6 +40,11 @@ pub enum BodyBakeError {
     /// Neither a density nor a mass was given.
     #[error("the body has neither a density nor a mass; give one of them")]
     NoMass,
+    /// What came out is no body that the run time takes.
+    #[error(
+        "the bake failed: {0}. The mesh passes every check, so its size or proportions must be extreme; `langevin-rigid check` shows them"
+    )]
+    Unsound(#[from] BodyError),
 }
 
 /// Computes everything about a body that does not change from step to step.
@@ -90,6 +96,7 @@ pub fn bake_body(
             potentials: added.surface.potentials.clone(),
         },
     };
+    body.check()?;
     Ok((body, added))
 }
 

@@ -7,7 +7,6 @@ use crate::kirchhoff::Motion;
 use crate::lanes::{Doubles, Lanes, Singles};
 use crate::linalg::{each, join};
 use crate::noise::{Counter, NoiseStream};
-use crate::settings::Model;
 use crate::shape::{General, Shape, Symmetric};
 use crate::state::State;
 use crate::stepper::{StepError, Stepper};
@@ -26,14 +25,19 @@ impl Precision for f64 {}
 impl Precision for f32 {}
 
 mod sealed {
-    use super::{Pack, Stepper};
+    use super::{Pack, StepError, Stepper};
 
     /// What a precision must do.
     pub trait Sealed: Sized + 'static {
         const ZERO: Self;
         fn of(value: f64) -> Self;
         fn to_f64(self) -> f64;
-        fn step(stepper: &Stepper, packs: &mut [Pack<Self>], dt: f64, diverged: &mut Vec<u32>);
+        fn step(
+            stepper: &Stepper,
+            packs: &mut [Pack<Self>],
+            dt: f64,
+            stopped: &mut Vec<(u32, StepError)>,
+        );
     }
 }
 
@@ -54,15 +58,14 @@ macro_rules! precision {
                 stepper: &Stepper,
                 packs: &mut [Pack<Self>],
                 dt: f64,
-                diverged: &mut Vec<u32>,
+                stopped: &mut Vec<(u32, StepError)>,
             ) {
-                let equations = &stepper.equations;
                 if stepper.symmetric.is_some() {
                     dispatch!(Level::new(), simd => step_packs::<_, $lanes<_>, Symmetric>(
-                        simd, equations, packs, dt, diverged));
+                        simd, stepper, packs, dt, stopped));
                 } else {
                     dispatch!(Level::new(), simd => step_packs::<_, $lanes<_>, General>(
-                        simd, equations, packs, dt, diverged));
+                        simd, stepper, packs, dt, stopped));
                 }
             }
         }
@@ -106,16 +109,15 @@ pub struct Pack<P = f64> {
 /// Bodies of a batch could not take a step.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
-    "{} of the bodies diverged, the first is body {} (time step {time_step} s, model `{model}`): no longer finite, or faster than {:e} m/s; use a smaller time step",
-    .bodies.len(), .bodies.first().copied().unwrap_or_default(), crate::SPEED_LIMIT
+    "{} of the bodies could not take a step, the first is body {}: {first}",
+    .bodies.len(), .bodies.first().copied().unwrap_or_default()
 )]
 pub struct BatchError {
     /// Their numbers; each is left as it was before the step.
     pub bodies: Vec<u32>,
-    /// Time step (s).
-    pub time_step: f64,
-    /// Model of the run.
-    pub model: Model,
+    /// Why the first of them could not.
+    #[source]
+    pub first: StepError,
 }
 
 impl<P: Precision> Batch<P> {
@@ -192,6 +194,11 @@ impl<P: Precision> Pack<P> {
         pack
     }
 
+    /// The numbers of its bodies.
+    pub(crate) fn bodies(&self) -> impl Iterator<Item = u32> {
+        self.bodies.into_iter().take(self.taken)
+    }
+
     fn state(&self, place: usize) -> State {
         let velocity = self.velocity.map(|x| x[place].to_f64());
         State {
@@ -217,7 +224,7 @@ impl<P: Precision> Pack<P> {
     /// One body after the other, in double precision.
     pub(crate) fn step_each(
         &mut self,
-        diverged: &mut Vec<u32>,
+        stopped: &mut Vec<(u32, StepError)>,
         step: impl Fn(&mut State, &NoiseStream) -> Result<(), StepError>,
     ) {
         for place in 0..self.taken {
@@ -228,7 +235,7 @@ impl<P: Precision> Pack<P> {
             let mut state = self.state(place);
             match step(&mut state, &noise) {
                 Ok(()) => self.set(place, &state),
-                Err(StepError::Diverged { .. }) => diverged.push(noise.body),
+                Err(error) => stopped.push((noise.body, error)),
             }
         }
     }
@@ -243,17 +250,17 @@ fn put<P: Precision, const N: usize>(to: &mut [[P; PACK]; N], place: usize, from
 #[inline(always)]
 fn step_packs<S: Simd, L: Lanes<S>, F: Shape>(
     simd: S,
-    equations: &Equations,
+    stepper: &Stepper,
     packs: &mut [Pack<L::Scalar>],
     dt: f64,
-    diverged: &mut Vec<u32>,
+    stopped: &mut Vec<(u32, StepError)>,
 ) where
     L::Scalar: Precision,
 {
-    let equations = equations.lift::<F, L>(L::splat(simd, 0.0));
+    let equations = stepper.equations.lift::<F, L>(L::splat(simd, 0.0));
     for pack in packs {
         for first in (0..pack.taken).step_by(L::COUNT) {
-            step_lanes::<S, L, F>(simd, &equations, pack, first, dt, diverged);
+            step_lanes::<S, L, F>(simd, stepper, &equations, pack, first, dt, stopped);
         }
     }
 }
@@ -262,11 +269,12 @@ fn step_packs<S: Simd, L: Lanes<S>, F: Shape>(
 #[inline(always)]
 fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
     simd: S,
+    stepper: &Stepper,
     equations: &Equations<F, L>,
     pack: &mut Pack<L::Scalar>,
     first: usize,
     dt: f64,
-    diverged: &mut Vec<u32>,
+    stopped: &mut Vec<(u32, StepError)>,
 ) where
     L::Scalar: Precision,
 {
@@ -294,13 +302,14 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
     store_columns(&mut pack.velocity, first, &after.xi);
     for place in lanes.clone() {
         pack.time[place] += dt;
-        pack.step[place] += 1;
+        pack.step[place] = pack.step[place].wrapping_add(1);
     }
     let Some(was) = was else { return };
     for place in lanes.filter(|place| sound & (1 << (place - first)) == 0) {
-        pack.set(place, &was.state(place));
+        let before = was.state(place);
+        pack.set(place, &before);
         if place < pack.taken {
-            diverged.push(pack.bodies[place]);
+            stopped.push((pack.bodies[place], stepper.why_not(&before, dt)));
         }
     }
 }
@@ -333,7 +342,7 @@ fn store_columns<S: Simd, L: Lanes<S>, const N: usize>(
 #[cfg(target_arch = "x86_64")]
 mod tests {
     use super::*;
-    use crate::{Body, Fluid, Settings};
+    use crate::{Body, Fluid, Model, Settings};
 
     fn stepper() -> Stepper {
         let mut body = Body {
@@ -368,18 +377,12 @@ mod tests {
                 ..State::default()
             });
         }
-        let mut diverged = Vec::new();
+        let mut stopped = Vec::new();
         for _ in 0..50 {
             let packs = batch.packs_mut();
-            step_packs::<S, Doubles<S>, General>(
-                simd,
-                &stepper.equations,
-                packs,
-                5e-3,
-                &mut diverged,
-            );
+            step_packs::<S, Doubles<S>, General>(simd, &stepper, packs, 5e-3, &mut stopped);
         }
-        assert!(diverged.is_empty());
+        assert!(stopped.is_empty());
         batch
     }
 

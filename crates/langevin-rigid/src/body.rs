@@ -1,6 +1,6 @@
 //! The baked body: everything about a shape that the run time needs.
 
-use crate::linalg::{Mat3, Mat6, Vec3, cholesky, cross};
+use crate::linalg::{Mat3, Mat6, Vec3, cholesky, cross, eigen_symmetric};
 
 /// A rigid body as the precomputation leaves it.
 ///
@@ -77,6 +77,7 @@ pub struct Surface {
 
 /// What makes a body impossible.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BodyError {
     /// A quantity that must be positive and finite is not.
     #[error("the body's {name} is {value}; it must be a positive number")]
@@ -86,6 +87,27 @@ pub enum BodyError {
         /// Its value.
         value: f64,
     },
+    /// A quantity has an entry that is infinite or not a number.
+    #[error("{} {name} with an entry that is not finite; bake the body again", owner(.part))]
+    NotFinite {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Number of the slice that it belongs to, from zero; the body's own if none.
+        part: Option<usize>,
+    },
+    /// A tensor of resistances, extents or added mass has a negative eigenvalue or is not symmetric.
+    #[error("{} {name} that is no symmetric positive tensor; bake the body again", owner(.part))]
+    NotPositiveTensor {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Number of the slice that it belongs to, from zero; the body's own if none.
+        part: Option<usize>,
+    },
+    /// The surface is not made of the vertices that it has.
+    #[error(
+        "the body's surface is damaged: its triangles refer to vertices that it does not have, or potentials are missing; bake the body again"
+    )]
+    Surface,
     /// The inertia has no inverse or is not symmetric.
     #[error(
         "the body's inertia is not a symmetric positive definite matrix; check its units (kg m^2) and its rows"
@@ -111,13 +133,20 @@ impl Body {
                 return Err(BodyError::NotPositive { name, value });
             }
         }
+        finite("centre of buoyancy", None, &self.centre_of_buoyancy)?;
+        finite("inertia", None, self.inertia.as_flattened())?;
+        finite("added mass", None, self.added_mass.as_flattened())?;
         if !symmetric(&self.inertia) || cholesky(&self.inertia).is_none() {
             return Err(BodyError::Inertia);
         }
         if !symmetric(&self.added_mass) {
             return Err(BodyError::AddedMass);
         }
-        Ok(())
+        self.separation.check()?;
+        for (number, part) in self.parts.iter().enumerate() {
+            part.check(number)?;
+        }
+        self.surface.check()
     }
 
     /// Length l of Eq. (18): the second-largest half-extent (m).
@@ -149,10 +178,76 @@ impl Body {
     }
 }
 
+impl Separation {
+    fn check(&self) -> Result<(), BodyError> {
+        for (name, tensor) in [
+            ("drag areas", &self.drag_area),
+            ("extents", &self.extents),
+            ("Stokes resistance to translation", &self.stokes_translation),
+            ("Stokes resistance to rotation", &self.stokes_rotation),
+        ] {
+            positive(name, None, tensor)?;
+        }
+        Ok(())
+    }
+}
+
+impl Part {
+    fn check(&self, number: usize) -> Result<(), BodyError> {
+        finite("centre", Some(number), &self.centre)?;
+        for (name, tensor) in [
+            ("translational added mass", &self.translation),
+            ("rotational added mass", &self.rotation),
+            ("drag areas", &self.drag_area),
+            ("extents", &self.extents),
+        ] {
+            positive(name, Some(number), tensor)?;
+        }
+        Ok(())
+    }
+}
+
+impl Surface {
+    fn check(&self) -> Result<(), BodyError> {
+        finite("surface vertices", None, self.vertices.as_flattened())?;
+        finite("surface potentials", None, self.potentials.as_flattened())?;
+        let count = self.vertices.len();
+        let triangles = self.triangles.iter().chain(&self.panels);
+        let whole = triangles.flatten().all(|&v| (v as usize) < count)
+            && (self.potentials.len() == count || self.potentials.is_empty());
+        whole.then_some(()).ok_or(BodyError::Surface)
+    }
+}
+
+/// How an error begins that is about the body or about one of its slices.
+fn owner(part: &Option<usize>) -> String {
+    match part {
+        None => "the body has".into(),
+        Some(number) => format!("slice {number} of the body (from 0) has"),
+    }
+}
+
+fn finite(name: &'static str, part: Option<usize>, numbers: &[f64]) -> Result<(), BodyError> {
+    match numbers.iter().all(|x| x.is_finite()) {
+        true => Ok(()),
+        false => Err(BodyError::NotFinite { name, part }),
+    }
+}
+
+/// Checks that a tensor is finite, symmetric and without negative eigenvalues, to rounding.
+fn positive(name: &'static str, part: Option<usize>, tensor: &Mat3) -> Result<(), BodyError> {
+    finite(name, part, tensor.as_flattened())?;
+    let ([least, _, largest], _) = eigen_symmetric(tensor);
+    if symmetric(tensor) && least >= -1e-9 * largest.abs() {
+        return Ok(());
+    }
+    Err(BodyError::NotPositiveTensor { name, part })
+}
+
+/// Whether a finite matrix is symmetric to rounding.
 fn symmetric<const N: usize>(m: &[[f64; N]; N]) -> bool {
     let largest = m.iter().flatten().fold(0.0f64, |a, x| a.max(x.abs()));
-    largest.is_finite()
-        && (0..N).all(|i| (0..i).all(|j| (m[i][j] - m[j][i]).abs() <= 1e-9 * largest))
+    (0..N).all(|i| (0..i).all(|j| (m[i][j] - m[j][i]).abs() <= 1e-9 * largest))
 }
 
 /// Added mass about another point, by the 6x6 adjoint.

@@ -3,16 +3,15 @@
 use crate::kirchhoff::{Kirchhoff, Motion};
 use crate::langevin::Langevin;
 use crate::linalg::{
-    Quat, Vec3, add, add_scaled, dot, each, join, lift, matrix_of, split, sub, transposed_mat_vec,
+    Quat, Vec3, Vec6, add, add_scaled, dot, each, join, lift, matrix_of, split, sub,
+    transposed_mat_vec,
 };
 use crate::modes::Modes;
 use crate::noise::Counter;
+use crate::pace::{MOST_PARTS, Pace, Part};
 use crate::real::Real;
 use crate::separated::Closure;
 use crate::shape::{General, Shape};
-
-/// A step is taken in no more parts.
-const MOST_PARTS: u32 = 256;
 
 /// Speed (m/s) and spin (rad/s) beyond which a run has diverged: no light body in a fluid comes near.
 pub const SPEED_LIMIT: f64 = 1e6;
@@ -22,6 +21,7 @@ pub const SPEED_LIMIT: f64 = 1e6;
 pub(crate) struct Equations<F: Shape = General, R: Real = f64> {
     pub(crate) kirchhoff: Kirchhoff<F, R>,
     pub(crate) loads: Loads<F, R>,
+    pub(crate) pace: Pace<R>,
     /// Uniform velocity of the fluid, world frame; none in fluid at rest.
     pub(crate) current: Option<Vec3<R>>,
 }
@@ -62,6 +62,7 @@ impl Equations {
                     noise: separated.noise.lift(like, total),
                 })),
             },
+            pace: self.pace.lift(like),
             current: self.current.map(|u| lift(like, &u)),
         }
     }
@@ -78,87 +79,136 @@ impl<F: Shape, R: Real> Equations<F, R> {
         dt: f64,
         noise: &Noise<R>,
     ) -> (Motion<R>, R::Mask) {
-        let h = time.of(dt);
-        let mut motion = self.relative_to_fluid(before);
-        match &self.loads {
-            Loads::None => self.kirchhoff.step(&mut motion, h, |_| None),
-            Loads::Langevin(langevin) => self.strang(langevin, &mut motion, time, dt, noise),
-            Loads::Separated(separated) => self.separated(separated, &mut motion, time, h, noise),
-        }
-        let after = self.in_the_world(motion, h);
-        let sound = possible(&after);
+        let motion = self.in_parts(self.relative_to_fluid(before), time, dt, noise);
+        let after = self.in_the_world(motion, time.of(dt));
+        // Zero for a time that is finite, as in `possible`.
+        let timed = !(time - time).less(time.of(0.0)) & (time - time).less(time.of(1.0));
+        let sound = possible(&after) & is_unit(before.orientation) & timed;
         (after, sound)
     }
 
-    /// Half a step of the Langevin part, one of Kirchhoff's, half a step of the Langevin part; in
-    /// parts where a body moves so fast that the coefficients would not hold over the step.
+    /// The motion after `dt` (s), in as many parts as the body's rates want.
+    #[inline(always)]
+    fn in_parts(&self, mut motion: Motion<R>, start: R, dt: f64, noise: &Noise<R>) -> Motion<R> {
+        let whole = start.of(dt);
+        let least = start.of(dt / f64::from(MOST_PARTS));
+        // What rounding leaves is no part.
+        let end = start.of(1e-9 * dt.abs());
+        let mut left = whole;
+        for number in 0..MOST_PARTS {
+            let time = start + (whole - left);
+            let part = self.part(&motion.xi, time, left, least);
+            let next = self.take(&motion, time, &part, number, noise);
+            if number == 0 && !R::any(end.less((left - part.h).abs())) {
+                return next;
+            }
+            let moves = end.less(left.abs());
+            motion = chosen(moves, &next, &motion);
+            left = R::choose(moves, left - part.h, left);
+            if !R::any(end.less(left.abs())) {
+                return motion;
+            }
+        }
+        motion
+    }
+
+    /// The part of `left` that comes next, not under `least`.
+    #[inline(always)]
+    fn part(&self, xi: &Vec6<R>, time: R, left: R, least: R) -> Part<R> {
+        let left = match &self.loads {
+            Loads::Langevin(langevin) => langevin.part(xi, time, left, least),
+            Loads::None | Loads::Separated(_) => left,
+        };
+        self.pace.part(xi, left, least)
+    }
+
+    #[inline(always)]
+    fn take(
+        &self,
+        before: &Motion<R>,
+        time: R,
+        part: &Part<R>,
+        number: u32,
+        noise: &Noise<R>,
+    ) -> Motion<R> {
+        match &self.loads {
+            Loads::None => {
+                let mut motion = *before;
+                self.kirchhoff.step(&mut motion, part.h, |_| None);
+                motion
+            }
+            Loads::Langevin(langevin) => {
+                let normals = noise.counter.normals_of_part(noise.seed, number);
+                self.strang(langevin, before, time, part.h, &normals)
+            }
+            Loads::Separated(separated) => {
+                let normals = noise.counter.normals_of_part(noise.seed, number).0;
+                self.separated(separated, before, time, part, &normals)
+            }
+        }
+    }
+
+    /// Half a step of the Langevin part, one of Kirchhoff's, half a step of the Langevin part.
     #[inline(always)]
     fn strang(
         &self,
         langevin: &Langevin<F, R>,
-        motion: &mut Motion<R>,
-        start: R,
-        dt: f64,
-        noise: &Noise<R>,
-    ) {
-        let (whole, half) = (start.of(dt), start.of(0.5));
-        let least = start.of(dt / f64::from(MOST_PARTS));
-        // What rounding leaves is no part.
-        let end = start.of(1e-9 * dt.abs());
-        let mut modes = langevin.modes.of_velocity(&motion.xi);
-        let mut left = whole;
-        for part in 0..MOST_PARTS {
-            let time = start + (whole - left);
-            let h = langevin.part(&motion.xi, time, left, least);
-            let (first, second) = noise.counter.normals_of_part(noise.seed, part);
-
-            let mut next = *motion;
-            let relaxed = langevin.step(&modes, time, h * half, &first);
-            next.xi = langevin.modes.velocity(&relaxed);
-            let momentum = langevin.modes.momentum(&relaxed);
-            let momentum = self
-                .kirchhoff
-                .step_momentum(&mut next, &momentum, h, |_| None);
-            let turned = langevin.modes.of_momentum(&momentum);
-            let relaxed = langevin.step(&turned, time + h * half, h * half, &second);
-            next.xi = langevin.modes.velocity(&relaxed);
-
-            if part == 0 && !R::any(end.less((left - h).abs())) {
-                *motion = next;
-                return;
-            }
-            let moves = end.less(left.abs());
-            *motion = chosen(moves, &next, motion);
-            modes = choose(moves, &relaxed, &modes);
-            left = R::choose(moves, left - h, left);
-            if !R::any(end.less(left.abs())) {
-                return;
-            }
-        }
+        before: &Motion<R>,
+        time: R,
+        h: R,
+        (first, second): &([R; 6], [R; 6]),
+    ) -> Motion<R> {
+        let half = h * h.of(0.5);
+        let mut motion = *before;
+        let modes = langevin.modes.of_velocity(&motion.xi);
+        let relaxed = langevin.step(&modes, time, half, first);
+        motion.xi = langevin.modes.velocity(&relaxed);
+        let momentum = langevin.modes.momentum(&relaxed);
+        let momentum = self
+            .kirchhoff
+            .step_momentum(&mut motion, &momentum, h, |_| None);
+        let turned = langevin.modes.of_momentum(&momentum);
+        let relaxed = langevin.step(&turned, time + half, half, second);
+        motion.xi = langevin.modes.velocity(&relaxed);
+        motion
     }
 
     #[inline(always)]
     fn separated(
         &self,
         separated: &Separated<F, R>,
-        motion: &mut Motion<R>,
+        before: &Motion<R>,
         time: R,
-        h: R,
-        noise: &Noise<R>,
-    ) {
-        let normals = noise.counter.normals(noise.seed);
-        let kick = separated.noise.kick(&motion.xi, time, h, &normals);
-        self.kirchhoff.step(
-            motion,
-            h,
-            #[inline(always)]
-            |xi| separated.closure.load(xi),
-        );
+        part: &Part<R>,
+        normals: &[R; 6],
+    ) -> Motion<R> {
+        let (h, closure) = (part.h, &separated.closure);
+        let kick = separated.noise.kick(&before.xi, time, h, normals);
+        let mut motion = *before;
+        if R::any(!part.stiff) {
+            self.kirchhoff.step(
+                &mut motion,
+                h,
+                #[inline(always)]
+                |xi| closure.load(xi),
+            );
+        }
+        if R::any(part.stiff) {
+            let mut resisted = *before;
+            self.kirchhoff.step_resisted(
+                &mut resisted,
+                h,
+                #[inline(always)]
+                |xi| closure.resisted_load(xi),
+            );
+            motion = chosen(part.stiff, &resisted, &motion);
+        }
         motion.xi = each(
             h,
             #[inline(always)]
             |i| motion.xi[i] + kick[i],
         );
+        motion
     }
 
     /// The motion in the inertial frame that the undisturbed fluid is at rest in.
@@ -192,6 +242,13 @@ pub(crate) fn possible<R: Real>(motion: &Motion<R>) -> R::Mask {
     let whole = add(motion.position, [motion.orientation[0]; 3]);
     let nothing = dot(sub(whole, whole), [v[0].of(1.0); 3]);
     (dot(v, v) + nothing).less(limit) & dot(omega, omega).less(limit)
+}
+
+/// Whether a quaternion is one to half a percent: other engines keep theirs in single precision.
+#[inline(always)]
+pub(crate) fn is_unit<R: Real>(q: Quat<R>) -> R::Mask {
+    let excess = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - q[0].of(1.0);
+    excess.abs().less(q[0].of(0.01))
 }
 
 #[inline(always)]

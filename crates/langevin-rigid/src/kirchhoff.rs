@@ -14,9 +14,9 @@
 use crate::body::Body;
 use crate::fluid::Fluid;
 use crate::linalg::{
-    Quat, Vec3, Vec6, add, add_scaled, cross, dot, dot6, each, invert_spd, join, lift, mat_vec,
-    matrix_of, mul, quat_mul, quat_normalize, rotate_back, scale, split, sub, transposed_mat_vec,
-    turn,
+    Mat3, Mat6, Quat, Vec3, Vec6, add, add_scaled, cross, dot, dot6, each, invert_spd, join, lift,
+    mat_vec, matrix_of, mul, quat_mul, quat_normalize, rotate_back, scale, solve_spd, split, sub,
+    transposed_mat_vec, turn,
 };
 use crate::real::Real;
 use crate::shape::{General, Shape, Tensor};
@@ -124,16 +124,70 @@ impl Kirchhoff {
             cross(self.centre_of_buoyancy, buoyancy),
         )
     }
-
-    /// The rate of the momenta (p, l) in the body frame from Kirchhoff's terms alone.
-    pub(crate) fn momentum_rate(&self, xi: &Vec6) -> Vec6 {
-        let (v, omega) = split(xi);
-        let (p, l) = split(&mul(&self.total, xi));
-        join(cross(p, omega), add(cross(l, omega), cross(p, v)))
-    }
 }
 
 impl<F: Shape, R: Real> Kirchhoff<F, R> {
+    /// The rate of the momenta (p, l) in the body frame from Kirchhoff's terms alone.
+    #[inline(always)]
+    pub(crate) fn momentum_rate(&self, xi: &Vec6<R>) -> Vec6<R> {
+        let (v, omega) = split(xi);
+        let (p, l) = split(&self.total.times(xi));
+        join(cross(p, omega), add(cross(l, omega), cross(p, v)))
+    }
+
+    /// One step whose resistances may be as stiff as they like: they are taken implicitly, with the
+    /// coefficients that they have in the middle of the step, the rest by the midpoint rule.
+    ///
+    /// `load` gives the further force as in [`Kirchhoff::step`], less the resistances -D xi, and D, a
+    /// symmetric positive tensor. Where resistances alone hold the weight the velocity is exact.
+    #[inline(always)]
+    pub(crate) fn step_resisted(
+        &self,
+        motion: &mut Motion<R>,
+        h: R,
+        load: impl Fn(&Vec6<R>) -> Option<(Vec6<R>, Mat6<R>)>,
+    ) {
+        let start = *motion;
+        let (momentum, total) = (self.total.times(&start.xi), self.total.matrix());
+        // The velocity after `h` with the loads and resistances of `from`.
+        let implicit = |h: R, from: &Motion<R>| -> Vec6<R> {
+            let mut rate = self.momentum_rate(&from.xi);
+            let still = self.static_load_at(&matrix_of(from.orientation));
+            let mut system = total;
+            for i in 0..6 {
+                rate[i] = momentum[i] + h * (rate[i] + still[i]);
+            }
+            if let Some((moving, resisted)) = load(&from.xi) {
+                for i in 0..6 {
+                    rate[i] = rate[i] + h * moving[i];
+                    for j in 0..6 {
+                        system[i][j] = system[i][j] + h * resisted[i][j];
+                    }
+                }
+            }
+            solve_spd(&system, &rate)
+        };
+        let half = h * h.of(0.5);
+        let mut middle = start;
+        middle.xi = implicit(half, &start);
+        let (v, omega) = split(&middle.xi);
+        middle.orientation = turned(start.orientation, half, omega);
+        motion.xi = implicit(h, &middle);
+        motion.orientation = turned(start.orientation, h, omega);
+        let displacement = mat_vec(&matrix_of(middle.orientation), v);
+        motion.position = add_scaled(start.position, h, displacement);
+    }
+
+    /// Weight and buoyancy in the frame of a body whose orientation is `matrix`.
+    #[inline(always)]
+    fn static_load_at(&self, matrix: &Mat3<R>) -> Vec6<R> {
+        let buoyancy = transposed_mat_vec(matrix, self.buoyancy);
+        join(
+            transposed_mat_vec(matrix, self.weight),
+            cross(self.centre_of_buoyancy, buoyancy),
+        )
+    }
+
     /// One step by the fourth-order Runge-Kutta-Munthe-Kaas scheme on the rotation group.
     ///
     /// `load` is a further generalized force about the centre of mass, body frame, from the velocity
@@ -257,6 +311,12 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
             angular,
         }
     }
+}
+
+/// The orientation after a turn at `omega` (body frame) for `h`.
+#[inline(always)]
+fn turned<R: Real>(orientation: Quat<R>, h: R, omega: Vec3<R>) -> Quat<R> {
+    quat_normalize(quat_mul(orientation, turn(scale(h, omega))))
 }
 
 /// The momenta (p, l) in the frame that the body has turned to.

@@ -27,6 +27,7 @@ mod langevin;
 pub mod linalg;
 mod modes;
 mod noise;
+mod pace;
 mod published;
 mod real;
 mod run;
@@ -53,5 +54,6 @@ pub use settings::{Integrator, Model, Settings, UnknownName};
 pub use state::State;
 pub use stepper::{SetupError, StepError, Stepper, falling_reynolds, falling_speed};
 pub use turbulence::{
-    LangevinCoefficients, Turbulence, TurbulenceHistory, TurbulenceSource, kolmogorov_c0,
+    HistoryError, LangevinCoefficients, Turbulence, TurbulenceHistory, TurbulenceSource,
+    kolmogorov_c0,
 };

@@ -205,6 +205,42 @@ pub(crate) fn cholesky<const N: usize>(m: &[[f64; N]; N]) -> Option<[[f64; N]; N
     Some(l)
 }
 
+/// The solution x of `m x = b` for a symmetric positive definite matrix, by its factors L D L^T.
+#[inline(always)]
+pub(crate) fn solve_spd<R: Real>(m: &Mat6<R>, b: &Vec6<R>) -> Vec6<R> {
+    // Below the diagonal L, on it 1 / D.
+    let mut f = *m;
+    for j in 0..6 {
+        let mut pivot = m[j][j];
+        for k in 0..j {
+            // L_jk D_k was kept above the diagonal.
+            pivot = pivot - f[j][k] * f[k][j];
+        }
+        f[j][j] = pivot.of(1.0) / pivot;
+        for i in j + 1..6 {
+            let mut entry = m[i][j];
+            for k in 0..j {
+                entry = entry - f[i][k] * f[k][j];
+            }
+            f[j][i] = entry;
+            f[i][j] = entry * f[j][j];
+        }
+    }
+    let mut x = *b;
+    for i in 0..6 {
+        for k in 0..i {
+            x[i] = x[i] - f[i][k] * x[k];
+        }
+    }
+    for i in (0..6).rev() {
+        x[i] = x[i] * f[i][i];
+        for k in i + 1..6 {
+            x[i] = x[i] - f[k][i] * x[k];
+        }
+    }
+    x
+}
+
 /// Inverse of a lower triangular matrix.
 fn invert_lower<const N: usize>(l: &[[f64; N]; N]) -> [[f64; N]; N] {
     let mut inverse = [[0.0; N]; N];
@@ -311,6 +347,15 @@ mod tests {
             for j in 0..6 {
                 assert!((one[i][j] - f64::from(i == j)).abs() < 1e-12);
             }
+        }
+    }
+
+    #[test]
+    fn a_solved_system_gives_its_right_side() {
+        let (m, b) = (spd(), [1.0, -2.0, 3.0, 0.5, -1.0, 4.0]);
+        let back = mul(&m, &solve_spd(&m, &b));
+        for i in 0..6 {
+            assert!((back[i] - b[i]).abs() < 1e-12);
         }
     }
 

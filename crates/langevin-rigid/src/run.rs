@@ -67,7 +67,8 @@ impl Hull {
 /// A run that starts at or below the ground ends at once.
 ///
 /// # Errors
-/// [`StepError`], with `state` and all that was observed kept.
+/// [`StepError`], with `state` and all that was observed kept; [`StepError::TimeStep`] where `dt` is not
+/// positive.
 pub fn run(
     mut advance: impl FnMut(&mut State) -> Result<(), StepError>,
     state: &mut State,
@@ -76,6 +77,9 @@ pub fn run(
     stop: &StopAt,
     mut observe: impl FnMut(&State) -> ControlFlow<()>,
 ) -> Result<Ending, StepError> {
+    if !(dt > 0.0 && dt.is_finite()) {
+        return Err(StepError::TimeStep(dt));
+    }
     loop {
         if stop
             .ground

@@ -11,8 +11,8 @@
 use crate::body::{Body, Part, shift_added_mass};
 use crate::elementary::exp;
 use crate::linalg::{
-    Mat3, Vec3, Vec6, add, add_scaled, cholesky, cross, dot, eigen_symmetric, join, lift, norm,
-    scale, split, sub,
+    Mat3, Mat6, Vec3, Vec6, add, add_scaled, cholesky, cross, dot, each, eigen_symmetric, join,
+    lift, mul, norm, scale, split, sub,
 };
 use crate::real::Real;
 use crate::shape::{Block, General, Shape};
@@ -94,6 +94,11 @@ impl Closure {
         })
     }
 
+    /// The second-largest half-extent of the body (m).
+    pub(crate) fn length(&self) -> f64 {
+        1.0 / self.parts[0].per_length
+    }
+
     /// The same for a body of shape `G` in the lanes of `like`.
     pub(crate) fn lift<G: Shape, R: Real>(&self, like: R) -> Closure<G, R> {
         Closure {
@@ -129,6 +134,41 @@ impl<F: Shape, R: Real> Closure<F, R> {
         let power = dot(sum.force, v) + dot(sum.torque, omega);
         let separation = limited(sum.lost, omega, power);
         Some(join(sum.force, add(sum.torque, separation)))
+    }
+
+    /// The resistances D of [`Closure::load`], which contains them as -D xi: Stokes resistance, pressure
+    /// drag, normal force and rotational damping, about the centre of mass. Symmetric and positive.
+    #[inline(always)]
+    pub(crate) fn resistance(&self, xi: &Vec6<R>) -> Mat6<R> {
+        let (v, omega) = split(xi);
+        let spin = norm(omega);
+        let [translation, rotation] = &self.stokes;
+        let mut sum = about_centre_of_mass(self.centre, &translation.matrix(), &rotation.matrix());
+        for part in &self.parts {
+            let at_part = add(v, cross(omega, part.centre));
+            let resistance = part.resistance(&self.constants, at_part, omega, spin);
+            for i in 0..6 {
+                for j in 0..6 {
+                    sum[i][j] = sum[i][j] + resistance[i][j];
+                }
+            }
+        }
+        sum
+    }
+
+    /// [`Closure::load`] in two: the resistances D, and the rest, load + D xi; none where the flow stays
+    /// attached.
+    #[inline(always)]
+    pub(crate) fn resisted_load(&self, xi: &Vec6<R>) -> Option<(Vec6<R>, Mat6<R>)> {
+        let load = self.load(xi)?;
+        let resistance = self.resistance(xi);
+        let resisted = mul(&resistance, xi);
+        let rest = each(
+            xi[0],
+            #[inline(always)]
+            |i| load[i] + resisted[i],
+        );
+        Some((rest, resistance))
     }
 
     /// Stokes resistance, about the centre of mass.
@@ -277,6 +317,33 @@ impl<F: Shape, R: Real> PartClosure<F, R> {
         }
     }
 
+    /// What resists in `loads`, as a tensor about the centre of mass.
+    #[inline(always)]
+    fn resistance(&self, c: &SeparatedFlow, v: Vec3<R>, omega: Vec3<R>, spin: R) -> Mat6<R> {
+        let (zero, one) = (spin.of(0.0), spin.of(1.0));
+        let speed = norm(v);
+        let per_speed = R::choose(zero.less(speed), one / speed, zero);
+        let direction = scale(per_speed, v);
+        let incidence = self.incidence(direction);
+        let attachment = self.attachment(c, &incidence, dot(omega, incidence.couple) * per_speed);
+        let normal = (attachment + attachment) * self.largest * speed * incidence.leverage;
+        let along = self.drag_area.times(direction);
+        let size = norm(along);
+        let drag = speed * dot(direction, along) / size;
+        let drag = R::choose(zero.less(size), drag, zero);
+        let damping = speed * self.per_length + spin;
+
+        let (directed, areas) = (self.directed.matrix(), self.drag_area.matrix());
+        let (mut translation, mut rotation) = (areas, self.rotation.matrix());
+        for i in 0..3 {
+            for j in 0..3 {
+                translation[i][j] = normal * directed[i][j] + drag * areas[i][j];
+                rotation[i][j] = damping * rotation[i][j];
+            }
+        }
+        about_centre_of_mass(self.centre, &translation, &rotation)
+    }
+
     /// Direction and size of the potential couple, and the chord and span that belong to it, from the
     /// direction of motion.
     #[inline(always)]
@@ -371,6 +438,37 @@ fn limited<R: Real>(lost: Vec3<R>, omega: Vec3<R>, power: R) -> Vec3<R> {
         return lost;
     }
     scale(R::choose(feeds, -dissipated / fed, power.of(1.0)), lost)
+}
+
+/// A resistance to the velocity of the point `centre` and one to rotation, as a tensor about the centre
+/// of mass: that velocity is v - [centre] omega.
+#[inline(always)]
+fn about_centre_of_mass<R: Real>(
+    centre: Vec3<R>,
+    translation: &Mat3<R>,
+    rotation: &Mat3<R>,
+) -> Mat6<R> {
+    let zero = centre[0].of(0.0);
+    let [x, y, z] = centre;
+    let arm = [[zero, -z, y], [z, zero, -x], [-y, x, zero]];
+    let mut sum = [[zero; 6]; 6];
+    for i in 0..3 {
+        let carried = cross(translation[i], centre);
+        for j in 0..3 {
+            sum[i][j] = translation[i][j];
+            // translation (omega x centre) = (centre x translation_i) . omega
+            sum[i][3 + j] = -carried[j];
+            sum[3 + j][i] = -carried[j];
+        }
+    }
+    for i in 0..3 {
+        for j in 0..3 {
+            let moment =
+                arm[i][0] * sum[0][3 + j] + arm[i][1] * sum[1][3 + j] + arm[i][2] * sum[2][3 + j];
+            sum[3 + i][3 + j] = rotation[i][j] + moment;
+        }
+    }
+    sum
 }
 
 #[inline(always)]
@@ -522,6 +620,32 @@ mod tests {
             let power: f64 = (0..6).map(|i| load[i] * xi[i]).sum();
             let scale = norm(at_centre).powi(3) + norm(omega).powi(3);
             assert!(power <= 1e-12 * scale, "state {n}: power {power}");
+        }
+    }
+
+    #[test]
+    fn the_resistances_are_a_positive_tensor_and_the_rest_does_no_work() {
+        let closure = general();
+        let stream = crate::noise::NoiseStream { seed: 4, body: 0 };
+        for n in 0..500 {
+            let z = stream.normals(n);
+            let xi: Vec6 = std::array::from_fn(|i| if i < 3 { z[i] } else { 4.0 * z[i] });
+            let (free, resistance) = closure.resisted_load(&xi).unwrap();
+            let (values, _) = eigen_symmetric(&resistance);
+            assert!(values[0] >= -1e-12 * values[5], "{values:?}");
+            // What is left is the rotational lift and the lost couple, of which the first does no work.
+            let part = &closure.parts[0];
+            let (v, omega) = split(&xi);
+            let at_centre = add(v, cross(omega, part.centre));
+            let loads = part.loads(&closure.constants, at_centre, omega, norm(omega));
+            let fed = dot(loads.lost, omega);
+            let power: f64 = (0..6).map(|i| free[i] * xi[i]).sum();
+            let size = norm(at_centre).powi(3) + norm(omega).powi(3);
+            let left = power - fed;
+            assert!(
+                left.abs() <= 1e-12 * size || (fed > 0.0 && left < 0.0),
+                "state {n}: {left}"
+            );
         }
     }
 

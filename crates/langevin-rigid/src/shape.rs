@@ -33,10 +33,14 @@ pub(crate) trait Shape: Debug + Clone {
 
 pub(crate) trait Tensor<R> {
     fn times(&self, a: &Vec6<R>) -> Vec6<R>;
+    /// All its entries.
+    fn matrix(&self) -> Mat6<R>;
 }
 
 pub(crate) trait Block<R> {
     fn times(&self, a: Vec3<R>) -> Vec3<R>;
+    /// All its entries.
+    fn matrix(&self) -> Mat3<R>;
 }
 
 /// Any body.
@@ -65,12 +69,20 @@ impl<R: Real> Tensor<R> for Mat6<R> {
     fn times(&self, a: &Vec6<R>) -> Vec6<R> {
         mul(self, a)
     }
+    #[inline(always)]
+    fn matrix(&self) -> Mat6<R> {
+        *self
+    }
 }
 
 impl<R: Real> Block<R> for Mat3<R> {
     #[inline(always)]
     fn times(&self, a: Vec3<R>) -> Vec3<R> {
         mat_vec(self, a)
+    }
+    #[inline(always)]
+    fn matrix(&self) -> Mat3<R> {
+        *self
     }
 }
 
@@ -161,6 +173,15 @@ impl<R: Real, const N: usize> Diagonal<R, N> {
             |i| self.0[i] * a[i],
         )
     }
+
+    #[inline(always)]
+    fn full(&self) -> [[R; N]; N] {
+        let mut m = [[self.0[0].of(0.0); N]; N];
+        for i in 0..N {
+            m[i][i] = self.0[i];
+        }
+        m
+    }
 }
 
 impl<R: Real> Tensor<R> for Diagonal<R, 6> {
@@ -168,12 +189,20 @@ impl<R: Real> Tensor<R> for Diagonal<R, 6> {
     fn times(&self, a: &Vec6<R>) -> Vec6<R> {
         self.scaled(a)
     }
+    #[inline(always)]
+    fn matrix(&self) -> Mat6<R> {
+        self.full()
+    }
 }
 
 impl<R: Real> Block<R> for Diagonal<R, 3> {
     #[inline(always)]
     fn times(&self, a: Vec3<R>) -> Vec3<R> {
         self.scaled(&a)
+    }
+    #[inline(always)]
+    fn matrix(&self) -> Mat3<R> {
+        self.full()
     }
 }
 

@@ -2,19 +2,22 @@
 
 use crate::batch::{Batch, BatchError, Pack, Precision};
 use crate::body::{Body, BodyError};
-use crate::equations::{Equations, Loads, Noise, SPEED_LIMIT, Separated, possible};
+use crate::equations::{Equations, Loads, Noise, SPEED_LIMIT, Separated, is_unit, possible};
 use crate::fluid::Fluid;
 use crate::kirchhoff::{Kirchhoff, Motion};
 use crate::langevin::Langevin;
 use crate::linalg::{Vec3, Vec6, add, cross, join, mul, norm, rotate, split};
 use crate::noise::{Counter, NoiseStream};
+use crate::pace::{MOST_PARTS, Pace};
 use crate::published::Published;
 use crate::runge_kutta;
 use crate::separated::Closure;
 use crate::settings::{Integrator, Model, Settings};
 use crate::shape::Symmetric;
 use crate::state::State;
-use crate::turbulence::{PreparedSource, TurbulenceHistory, TurbulenceSource, kolmogorov_c0};
+use crate::turbulence::{
+    HistoryError, PreparedSource, TurbulenceHistory, TurbulenceSource, kolmogorov_c0,
+};
 
 /// A body in a fluid under a model, made ready to step.
 ///
@@ -63,10 +66,14 @@ enum Paper {
 
 /// Why a body cannot be made ready to step.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SetupError {
     /// The body is impossible.
     #[error(transparent)]
     Body(#[from] BodyError),
+    /// The turbulence history is impossible.
+    #[error(transparent)]
+    History(#[from] HistoryError),
     /// A quantity is out of its range.
     #[error("{name} is {value}; it must be {wanted}")]
     OutOfRange {
@@ -101,12 +108,43 @@ pub enum SetupError {
 
 /// Why a step was not taken.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StepError {
-    /// The step would have left the state infinite, not a number, or faster than
-    /// [`SPEED_LIMIT`].
+    /// The state that the step was to start from is impossible.
     #[error(
-        "the state diverged at t = {time} s (step {step}, time step {time_step} s, model `{model}`): it is no longer finite, or faster than {SPEED_LIMIT:e} m/s; use a smaller time step{}",
-        published_hint(.model)
+        "{name} of the state before step {step} is no {wanted}; whoever set this state must mend it"
+    )]
+    State {
+        /// What of the state.
+        name: &'static str,
+        /// What it must be.
+        wanted: &'static str,
+        /// Number of the step.
+        step: u64,
+    },
+    /// The time step is negative, infinite or not a number.
+    #[error("the time step is {0} s; it must be zero or a positive number")]
+    TimeStep(f64),
+    /// The body moves so fast that the step would have to be taken in more parts than there may be.
+    #[error(
+        "at t = {time} s the body moves at {speed:.3e} m/s and turns at {spin:.3e} rad/s relative to the fluid, for which a step may be {longest:.1e} s long, and up to {MOST_PARTS} times that in parts; this one is {time_step} s: check the speeds it was released with, or use a smaller time step"
+    )]
+    TooFast {
+        /// Time at the start of the step (s).
+        time: f64,
+        /// Speed relative to the fluid (m/s).
+        speed: f64,
+        /// Angular speed (rad/s).
+        spin: f64,
+        /// The step that it can bear, as [`Stepper::longest_step`] has it (s).
+        longest: f64,
+        /// Time step (s).
+        time_step: f64,
+    },
+    /// The step would have left the state infinite, not a number, or faster than [`SPEED_LIMIT`].
+    #[error(
+        "the state diverged at t = {time} s (step {step}, time step {time_step} s, model `{model}`): it is no longer finite, or faster than {SPEED_LIMIT:e} m/s{}",
+        hint(.model)
     )]
     Diverged {
         /// Time at the start of the step (s).
@@ -120,12 +158,14 @@ pub enum StepError {
     },
 }
 
-fn published_hint(model: &Model) -> &'static str {
+fn hint(model: &Model) -> &'static str {
     match model {
         Model::Published(_) => {
-            ", or the model `consistent`: the printed equations diverge at ordinary steps"
+            "; use a smaller time step, or the model `consistent`: the printed equations diverge at ordinary steps"
         }
-        _ => "",
+        _ => {
+            "; the scheme of the paper (integrator `rk4`) wants a smaller time step, and the default one never ends so unless an outside load or the clock drives it to infinity"
+        }
     }
 }
 
@@ -141,11 +181,19 @@ impl Stepper {
     ) -> Result<Self, SetupError> {
         body.check()?;
         check(fluid, settings)?;
+        if let Some(history) = history {
+            history.check()?;
+        }
         let kirchhoff =
             Kirchhoff::new(body, fluid, settings.gravity).ok_or(SetupError::TotalMass)?;
         let (loads, paper) = loads(body, fluid, history, settings, &kirchhoff)?;
         let moving = fluid.velocity.iter().any(|&u| u != 0.0);
+        let closure = match &loads {
+            Loads::Separated(separated) => Some(&separated.closure),
+            Loads::None | Loads::Langevin(_) => None,
+        };
         let equations = Equations {
+            pace: Pace::of(&kirchhoff, closure),
             kirchhoff,
             loads,
             current: moving.then_some(fluid.velocity),
@@ -162,8 +210,10 @@ impl Stepper {
 
     /// Advances `state` by `dt` (s) with the noise of its step number.
     ///
+    /// A step longer than [`Stepper::longest_step`] is taken in parts.
+    ///
     /// # Errors
-    /// [`StepError::Diverged`], with `state` left as it was before the step.
+    /// [`StepError`], with `state` left as it was before the step.
     pub fn step(&self, state: &mut State, dt: f64, noise: &NoiseStream) -> Result<(), StepError> {
         let before = state.motion();
         let (motion, sound) = match &self.paper {
@@ -179,17 +229,54 @@ impl Stepper {
             }
             Some(paper) => self.paper_step(paper, &before, state, dt, noise),
         };
-        let next = State::of(&motion, state.time + dt, state.step + 1);
-        if !(sound && next.time.is_finite()) {
-            return Err(StepError::Diverged {
+        let next = State::of(&motion, state.time + dt, state.step.wrapping_add(1));
+        if !(sound && dt >= 0.0 && next.time.is_finite()) {
+            return Err(self.why_not(state, dt));
+        }
+        *state = next;
+        Ok(())
+    }
+
+    /// The longest step (s) that a body in this state takes whole; a longer one is taken in parts.
+    ///
+    /// Infinite for a body at rest without friction.
+    pub fn longest_step(&self, state: &State) -> f64 {
+        let motion = self.equations.relative_to_fluid(&state.motion());
+        self.equations.pace.longest_step(&motion.xi)
+    }
+
+    /// Why the step from `state` over `dt` could not be taken.
+    pub(crate) fn why_not(&self, state: &State, dt: f64) -> StepError {
+        let of_state = |name, wanted| StepError::State {
+            name,
+            wanted,
+            step: state.step,
+        };
+        let xi = self.equations.relative_to_fluid(&state.motion()).xi;
+        let (v, omega) = split(&xi);
+        let longest = self.longest_step(state);
+        if !state.is_finite() {
+            of_state("a number", "finite number")
+        } else if !is_unit(state.orientation) {
+            of_state("the orientation", "unit quaternion")
+        } else if !(dt >= 0.0 && dt.is_finite()) {
+            StepError::TimeStep(dt)
+        } else if self.paper.is_none() && dt > longest * f64::from(MOST_PARTS) {
+            StepError::TooFast {
+                time: state.time,
+                speed: norm(v),
+                spin: norm(omega),
+                longest,
+                time_step: dt,
+            }
+        } else {
+            StepError::Diverged {
                 time: state.time,
                 step: state.step,
                 time_step: dt,
                 model: self.model,
-            });
+            }
         }
-        *state = next;
-        Ok(())
     }
 
     /// Advances every body of `batch` by `dt` (s), each with the noise of its own step number.
@@ -216,23 +303,26 @@ impl Stepper {
         packs: &mut [Pack<P>],
         dt: f64,
     ) -> Result<(), BatchError> {
-        let mut diverged = Vec::new();
+        let mut stopped = Vec::new();
         match self.paper {
-            None => P::step(self, packs, dt, &mut diverged),
+            _ if !(dt >= 0.0) => {
+                let places = packs.iter().flat_map(Pack::bodies);
+                stopped.extend(places.map(|body| (body, StepError::TimeStep(dt))));
+            }
+            None => P::step(self, packs, dt, &mut stopped),
             Some(_) => {
                 for pack in packs {
-                    pack.step_each(&mut diverged, |state, noise| self.step(state, dt, noise));
+                    pack.step_each(&mut stopped, |state, noise| self.step(state, dt, noise));
                 }
             }
         }
-        if diverged.is_empty() {
-            return Ok(());
+        match stopped.first() {
+            None => Ok(()),
+            Some((_, first)) => Err(BatchError {
+                first: first.clone(),
+                bodies: stopped.into_iter().map(|(body, _)| body).collect(),
+            }),
         }
-        Err(BatchError {
-            bodies: diverged,
-            time_step: dt,
-            model: self.model,
-        })
     }
 
     /// Kinetic energy of the body and the fluid it moves, relative to the undisturbed fluid (J).
@@ -278,7 +368,7 @@ impl Stepper {
             Paper::Published(published) => published.step(&mut motion, state.time, dt, &normals),
         }
         let after = self.equations.in_the_world(motion, dt);
-        let sound = possible(&after);
+        let sound = possible(&after) && is_unit(before.orientation);
         (after, sound)
     }
 
@@ -347,6 +437,12 @@ fn loads(
         PreparedSource::new(settings.turbulence, history, length, c0)
             .ok_or(SetupError::NoHistory(settings.turbulence))
     };
+    // Twice the mean speed: what a swing or a dive may reach.
+    let mean = || {
+        let falling = falling_speed(body, fluid, settings.gravity);
+        let stated = settings.reynolds.unwrap_or(0.0) * fluid.viscosity / body.length;
+        Ok::<_, SetupError>(source()?.with_mean_speed(2.0 * falling.max(stated)))
+    };
     let langevin = |source| {
         let added = body.added_mass.map(|row| row.map(|a| fluid.density * a));
         Langevin::new(added, &kirchhoff.total, body.rotation_length(), source)
@@ -357,13 +453,13 @@ fn loads(
         Model::Kirchhoff if by_the_paper => (Loads::None, Some(Paper::RungeKutta4(None))),
         Model::Kirchhoff => (Loads::None, None),
         Model::Consistent if by_the_paper => {
-            let langevin = langevin(source()?)?;
+            let langevin = langevin(mean()?)?;
             (
                 Loads::None,
                 Some(Paper::RungeKutta4(Some(Box::new(langevin)))),
             )
         }
-        Model::Consistent => (Loads::Langevin(Box::new(langevin(source()?)?)), None),
+        Model::Consistent => (Loads::Langevin(Box::new(langevin(mean()?)?)), None),
         Model::Separated => {
             let constants = settings.separated;
             let noise = langevin(source()?.with_intensity(constants.turbulence_intensity))?;
@@ -411,14 +507,40 @@ fn check(fluid: &Fluid, settings: &Settings) -> Result<(), SetupError> {
             });
         }
     }
-    let reynolds = settings.reynolds.unwrap_or(0.0);
-    if !(reynolds >= 0.0 && reynolds.is_finite()) {
-        let name = "the Reynolds number";
-        return Err(SetupError::OutOfRange {
-            name,
-            value: reynolds,
-            wanted: "zero or a positive number",
-        });
+    let c = &settings.separated;
+    let wake_age = match settings.turbulence {
+        TurbulenceSource::BodyDriven { wake_age } => wake_age,
+        TurbulenceSource::History => 0.0,
+    };
+    for (name, value) in [
+        ("the Reynolds number", settings.reynolds.unwrap_or(0.0)),
+        ("the wake age of the turbulence", wake_age),
+        ("the gain of dynamic stall", c.dynamic_stall),
+        ("the rotational lift", c.rotational_lift),
+        ("the rotational damping", c.rotational_damping),
+        ("the turbulence intensity", c.turbulence_intensity),
+    ] {
+        if !(value >= 0.0 && value.is_finite()) {
+            let wanted = "zero or a positive number";
+            return Err(SetupError::OutOfRange {
+                name,
+                value,
+                wanted,
+            });
+        }
+    }
+    for (name, value) in [
+        ("the attachment", c.attachment),
+        ("the broadside attachment", c.broadside_attachment),
+    ] {
+        if !(value > 0.0 && value <= 1.0) {
+            let wanted = "above 0 and at most 1";
+            return Err(SetupError::OutOfRange {
+                name,
+                value,
+                wanted,
+            });
+        }
     }
     for (name, vector) in [
         ("a component of gravity", settings.gravity),

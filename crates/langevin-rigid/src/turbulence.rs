@@ -25,7 +25,55 @@ pub struct TurbulenceHistory {
     pub epsilon: Vec<f64>,
 }
 
+/// What makes a turbulence history impossible.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("the turbulence history's {name} is {value}; it must be {wanted}: bake the scene again")]
+pub struct HistoryError {
+    /// Name of the quantity.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What it must be.
+    pub wanted: &'static str,
+}
+
 impl TurbulenceHistory {
+    /// Checks what every source that samples it relies on.
+    ///
+    /// # Errors
+    /// See [`HistoryError`]; the first fault in the order of the fields.
+    pub fn check(&self) -> Result<(), HistoryError> {
+        let error = |name, value, wanted| {
+            Err(HistoryError {
+                name,
+                value,
+                wanted,
+            })
+        };
+        for (name, value) in [
+            ("interval", self.interval),
+            ("inflow speed", self.inflow_speed),
+            ("length", self.length),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return error(name, value, "a positive number");
+            }
+        }
+        let entries = self.k.iter().chain(&self.epsilon);
+        if let Some(&value) = entries.into_iter().find(|x| !(**x >= 0.0 && x.is_finite())) {
+            return error("k or epsilon", value, "zero or a positive number");
+        }
+        if self.k.is_empty() || self.k.len() != self.epsilon.len() {
+            let count = self.epsilon.len() as f64;
+            return error(
+                "number of values of epsilon",
+                count,
+                "that of k, and not zero",
+            );
+        }
+        Ok(())
+    }
+
     /// Turbulence at time `t` (s) after release: linear between entries, the last value held.
     ///
     /// Times before release give the first entry, an empty history none.
@@ -144,6 +192,8 @@ pub(crate) enum PreparedSource<R = f64> {
         alpha: R,
         /// beta^2 at unit speed (1/m, times the cube of a speed).
         diffusion: R,
+        /// Speed up to which beta follows the body's (m/s).
+        most: R,
     },
     History {
         history: Arc<TurbulenceHistory>,
@@ -181,6 +231,7 @@ impl PreparedSource {
                 Some(Self::BodyDriven {
                     alpha,
                     diffusion: beta * beta,
+                    most: f64::INFINITY,
                 })
             }
             TurbulenceSource::History => {
@@ -190,12 +241,34 @@ impl PreparedSource {
         }
     }
 
+    /// The same source whose fluctuations are born at no more than `speed` (m/s).
+    ///
+    /// Eq. (18) takes k from the mean speed of the body. The present speed stands for it, but contains the
+    /// fluctuations; without a bound they feed on themselves, and a body as light as its fluid runs away.
+    pub(crate) fn with_mean_speed(self, speed: f64) -> Self {
+        match self {
+            Self::BodyDriven {
+                alpha, diffusion, ..
+            } => Self::BodyDriven {
+                alpha,
+                diffusion,
+                most: speed,
+            },
+            history @ Self::History { .. } => history,
+        }
+    }
+
     /// The same source with fluctuations of `intensity` times the speed.
     pub(crate) fn with_intensity(self, intensity: f64) -> Self {
         match self {
-            Self::BodyDriven { alpha, diffusion } => Self::BodyDriven {
+            Self::BodyDriven {
+                alpha,
+                diffusion,
+                most,
+            } => Self::BodyDriven {
                 alpha: alpha * intensity,
                 diffusion: diffusion * intensity * intensity * intensity,
+                most,
             },
             history @ Self::History { .. } => history,
         }
@@ -204,9 +277,14 @@ impl PreparedSource {
     /// The same in the lanes of `like`.
     pub(crate) fn lift<R: Real>(&self, like: R) -> PreparedSource<R> {
         match self {
-            Self::BodyDriven { alpha, diffusion } => PreparedSource::BodyDriven {
+            Self::BodyDriven {
+                alpha,
+                diffusion,
+                most,
+            } => PreparedSource::BodyDriven {
                 alpha: like.of(*alpha),
                 diffusion: like.of(*diffusion),
+                most: like.of(*most),
             },
             Self::History { history, c0 } => PreparedSource::History {
                 history: Arc::clone(history),
@@ -222,10 +300,17 @@ impl<R: Real> PreparedSource<R> {
     pub(crate) fn coefficients(&self, speed: R, time: R) -> Coefficients<R> {
         match self {
             // k grows with U^2 and epsilon with U^3.
-            Self::BodyDriven { alpha, diffusion } => Coefficients {
-                alpha: *alpha * speed,
-                diffusion: *diffusion * speed * (speed * speed),
-            },
+            Self::BodyDriven {
+                alpha,
+                diffusion,
+                most,
+            } => {
+                let mean = speed.min(*most);
+                Coefficients {
+                    alpha: *alpha * speed,
+                    diffusion: *diffusion * mean * (mean * mean),
+                }
+            }
             Self::History { history, c0 } => {
                 let calm = Turbulence {
                     k: 0.0,

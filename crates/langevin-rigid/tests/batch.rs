@@ -120,11 +120,9 @@ fn who_diverges_is_named_and_left_alone() {
     let before = batch.clone();
     let error = stepper.step_batch(&mut batch, 4e-3).unwrap_err();
     assert_eq!(error.bodies, lost.map(|body| body as u32));
-    assert!(
-        error
-            .to_string()
-            .starts_with("2 of the bodies diverged, the first is body 2")
-    );
+    assert!(error.to_string().starts_with(
+        "2 of the bodies could not take a step, the first is body 2: a number of the state"
+    ));
     for body in 0..BODIES {
         let steps = batch.state(body).unwrap().step - before.state(body).unwrap().step;
         assert_eq!(steps, u64::from(!lost.contains(&body)));

@@ -85,6 +85,7 @@ fn divergence(model: &str, dt: f64) -> Option<f64> {
     (0..(2.0 / dt) as u32).find_map(|_| {
         match stepper.step(&mut state, dt, &NoiseStream::default()) {
             Err(StepError::Diverged { time, .. }) => Some(time),
+            Err(error) => panic!("{error}"),
             Ok(()) => None,
         }
     })

@@ -41,7 +41,7 @@ pub fn parts(mesh: &TriMesh, added: &AddedMass) -> Vec<Part> {
     let Some(slicing) = Slicing::of(mesh) else {
         return vec![];
     };
-    let panels = Panels::of(&added.surface);
+    let panels = Panels::shorter_than(&added.surface, slicing.axis, slicing.pitch);
     let level = panels.mean_potentials();
     (0..slicing.count)
         .map(|k| slicing.part(k, &panels, &level, added.reference))
@@ -122,7 +122,7 @@ impl Slicing {
     }
 
     /// Centre of the slice's added mass: along the body where the mass is, across it where the
-    /// surface is.
+    /// surface is; never outside the slice, where opposite shares of a small mass might put it.
     fn centre(&self, nodes: impl Iterator<Item = Node>, centroid: Vec3) -> Vec3 {
         let (mut mass, mut first, mut area, mut middle) = (0.0, 0.0, 0.0, [0.0; 3]);
         for n in nodes {
@@ -134,8 +134,14 @@ impl Slicing {
             middle = add(middle, scale(n.weight, n.x));
         }
         let middle = scale(1.0 / area, middle);
+        if mass <= 0.0 {
+            return middle;
+        }
         let along = first / mass - dot(sub(middle, centroid), self.axis);
-        add(middle, scale(along, self.axis))
+        add(
+            middle,
+            scale(along.clamp(-self.pitch, self.pitch), self.axis),
+        )
     }
 
     /// Squared half-extents: across the body from the second moments of the surface, which for a

@@ -35,7 +35,8 @@ use constant::{ASPECT_SCALE, LONG_SUCTION, QUANTILE, RECOVERY, ROUND_SUCTION, WA
 /// Steady pressure drag in one direction of motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PressureDrag {
-    /// Drag coefficient on the silhouette; the mean of the motions to and fro.
+    /// Drag coefficient on the silhouette; the mean of the motions to and fro. Zero where there is no
+    /// silhouette, as of the middle of a lath that moves along itself.
     pub coefficient: f64,
     /// Area of the silhouette across the motion (m^2), half of sum |n . e| dA: of a body that is not
     /// convex, with the parts that hide behind others.
@@ -70,7 +71,7 @@ impl Panels {
             .map(term)
             .fold((0.0, 0.0), |(a, f), (da, drop)| (a + da, f + da * drop));
         PressureDrag {
-            coefficient: force / area,
+            coefficient: if area > 0.0 { force / area } else { 0.0 },
             silhouette: area,
         }
     }
