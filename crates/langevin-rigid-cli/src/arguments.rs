@@ -272,9 +272,9 @@ Reads OBJ, STL, PLY, glTF and GLB.")]
 pub(crate) struct AddedMass {
     /// The mesh file.
     pub(crate) mesh: PathBuf,
-    /// Unit of its coordinates.
-    #[arg(long, value_name = "UNIT", default_value = "m")]
-    pub(crate) unit: LengthUnit,
+    /// Unit of its coordinates [default: that of its format, or m].
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) unit: Option<LengthUnit>,
     /// Thicken an open sheet to this thickness (m).
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     pub(crate) thickness: Option<f64>,
@@ -309,9 +309,9 @@ Exit codes:
 pub(crate) struct Check {
     /// The mesh file.
     pub(crate) mesh: PathBuf,
-    /// Unit of its coordinates.
-    #[arg(long, value_name = "UNIT", default_value = "m")]
-    pub(crate) unit: LengthUnit,
+    /// Unit of its coordinates [default: that of its format, or m].
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) unit: Option<LengthUnit>,
     /// Print the report as JSON.
     #[arg(long)]
     pub(crate) json: bool,
@@ -334,9 +334,9 @@ pub(crate) struct Repair {
     /// File to write, .obj (all digits) or .stl (single precision).
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
-    /// Unit of the mesh's coordinates.
-    #[arg(long, value_name = "UNIT", default_value = "m")]
-    pub(crate) unit: LengthUnit,
+    /// Unit of the mesh's coordinates [default: that of its format, or m].
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) unit: Option<LengthUnit>,
     /// Weld vertices of open edges this close (m) [default: 1e-6 of the diagonal of the mesh's box].
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     pub(crate) weld: Option<f64>,

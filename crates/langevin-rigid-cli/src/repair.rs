@@ -100,7 +100,7 @@ fn write(out: &Path, format: MeshFormat, body: &TriMesh) -> Result<()> {
         MeshFormat::Stl => write_stl(body, &mut bytes)?,
         _ => write_obj(body, &mut bytes)?,
     }
-    parse_mesh(&bytes, format, LengthUnit::M, None)?
+    parse_mesh(&bytes, format, Some(LengthUnit::M), None)?
         .body()
         .with_context(|| {
             "written as STL, which rounds to single precision and tells equal vertices apart by nothing, \

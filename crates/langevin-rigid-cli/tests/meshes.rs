@@ -157,6 +157,22 @@ fn a_sheet_needs_a_thickness() {
 }
 
 #[test]
+fn a_gltf_file_is_in_metres_and_says_where_that_is_overruled() {
+    let place = Place::new();
+    let ball = "../langevin-rigid-formats/tests/data/ball-draco-edgebreaker.glb";
+    let ball = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(ball);
+    let ball = ball.to_str().unwrap();
+    let (code, report) = place.json(&["check", ball]);
+    assert_eq!((code, &report["unit"]), (0, &"m".into()));
+    assert!((report["volume"].as_f64().unwrap() - 0.5059).abs() < 1e-4);
+    let (_, _, stderr) = place.run(&["check", ball, "--unit", "mm"]);
+    assert!(
+        stderr.contains("note: its lengths were taken to be in mm"),
+        "{stderr}"
+    );
+}
+
+#[test]
 fn a_unit_is_hinted_at_and_repaired_into_metres() {
     let place = Place::new();
     place.write("leaf.obj", &SHEET.replace("v 1", "v 250"));

@@ -118,6 +118,14 @@ impl MeshFormat {
         }
     }
 
+    /// The unit of length that the format prescribes.
+    pub fn unit(self) -> Option<LengthUnit> {
+        match self {
+            MeshFormat::Gltf | MeshFormat::Glb => Some(LengthUnit::M),
+            MeshFormat::Obj | MeshFormat::Stl | MeshFormat::Ply => None,
+        }
+    }
+
     /// The format a file's extension names, in upper or lower case.
     pub fn of_extension(path: &Path) -> Option<MeshFormat> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
@@ -131,7 +139,8 @@ impl MeshFormat {
     }
 }
 
-/// Reads the triangles of a mesh file whose lengths are in `unit`.
+/// Reads the triangles of a mesh file whose lengths are in `unit`, or in that of its format (metres for
+/// glTF).
 ///
 /// The content decides on the format; the extension where the content does not. All objects of an
 /// OBJ file and all meshes of the default scene of a glTF file come together, placed by the scene's
@@ -140,7 +149,7 @@ impl MeshFormat {
 /// ```no_run
 /// use langevin_rigid_formats::mesh::{LengthUnit, read_mesh};
 ///
-/// let leaf = read_mesh("leaf.obj".as_ref(), LengthUnit::Cm)?.sheet(0.0002)?;
+/// let leaf = read_mesh("leaf.obj".as_ref(), Some(LengthUnit::Cm))?.sheet(0.0002)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -148,7 +157,7 @@ impl MeshFormat {
 ///
 /// A [`ReadError`] where the file cannot be read, is of no known format, or a [`ParseError`] says
 /// what is wrong inside it.
-pub fn read_mesh(path: &Path, unit: LengthUnit) -> Result<RawMesh, ReadError> {
+pub fn read_mesh(path: &Path, unit: Option<LengthUnit>) -> Result<RawMesh, ReadError> {
     let bytes = std::fs::read(path).map_err(|source| ReadError::of_file(path, source))?;
     let format = MeshFormat::of_content(&bytes).or_else(|| MeshFormat::of_extension(path));
     let format = format.ok_or_else(|| ReadError::UnknownFormat { path: path.into() })?;
@@ -168,7 +177,7 @@ pub fn read_mesh(path: &Path, unit: LengthUnit) -> Result<RawMesh, ReadError> {
 /// use langevin_rigid_formats::mesh::{LengthUnit, MeshFormat, parse_mesh};
 ///
 /// let file = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-/// let square = parse_mesh(file, MeshFormat::Obj, LengthUnit::Cm, None)?;
+/// let square = parse_mesh(file, MeshFormat::Obj, Some(LengthUnit::Cm), None)?;
 /// assert_eq!(square.triangles, [[0, 1, 2], [0, 2, 3]]);
 /// assert_eq!(square.vertices[1], [0.01, 0.0, 0.0]);
 /// # Ok::<(), langevin_rigid_formats::mesh::ParseError>(())
@@ -176,14 +185,17 @@ pub fn read_mesh(path: &Path, unit: LengthUnit) -> Result<RawMesh, ReadError> {
 ///
 /// # Errors
 ///
-/// A [`ParseError`] with the place in the file where it is known.
+/// A [`ParseError`] with the place in the file where it is known; [`ParseError::NoUnit`] without a
+/// `unit` where the format states none.
 pub fn parse_mesh(
     bytes: &[u8],
     format: MeshFormat,
-    unit: LengthUnit,
+    unit: Option<LengthUnit>,
     folder: Option<&Path>,
 ) -> Result<RawMesh, ParseError> {
-    let mesh = match format {
+    let stated = format.unit();
+    let unit = unit.or(stated).ok_or(ParseError::NoUnit)?;
+    let mut mesh = match format {
         MeshFormat::Obj => obj::parse(bytes)?.welded_if_open(),
         MeshFormat::Stl => stl::parse(bytes)?.welded(),
         MeshFormat::Ply => ply::parse(bytes)?.welded_if_open(),
@@ -192,6 +204,10 @@ pub fn parse_mesh(
     };
     if mesh.triangles.is_empty() {
         return Err(ParseError::NoTriangles);
+    }
+    if let Some(stated) = stated.filter(|&stated| stated != unit) {
+        let notice = format!("its lengths were taken to be in {unit}, its format says {stated}");
+        mesh.notices.push(notice);
     }
     Ok(mesh.in_metres(unit))
 }

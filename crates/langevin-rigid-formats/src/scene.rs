@@ -110,8 +110,8 @@ pub enum Geometry {
     Mesh {
         /// Path; relative ones start from the scene's folder.
         path: PathBuf,
-        /// Unit of its coordinates.
-        unit: LengthUnit,
+        /// Unit of its coordinates; that of the format if none.
+        unit: Option<LengthUnit>,
         /// Thickness that an open sheet is given (m).
         thickness: Option<f64>,
     },

@@ -90,7 +90,7 @@ struct ExpectedReport {
 impl Report {
     pub(super) fn new(options: &Check, survey: &Survey, remedy: &Remedy) -> Report {
         let size: [f64; 3] = std::array::from_fn(|k| survey.bounds[1][k] - survey.bounds[0][k]);
-        let in_file = size.map(|x| x / options.unit.to_metres(1.0));
+        let in_file = size.map(|x| x / options.unit.unwrap_or_default().to_metres(1.0));
         let [m, cm, mm] = [1.0, 1e-2, 1e-3].map(|unit| in_file.map(|x| x * unit));
         let body = survey.body.as_ref().ok().or(remedy.body.as_ref());
         let foretold = body.map(|body| expected(body, &Options::default()));
@@ -110,7 +110,7 @@ impl Report {
             file: options.mesh.display().to_string(),
             triangles: survey.triangles,
             vertices: survey.vertices,
-            unit: options.unit.to_string(),
+            unit: options.unit.unwrap_or_default().to_string(),
             size,
             size_if_m: m,
             size_if_cm: cm,
@@ -229,10 +229,8 @@ fn unit_hint(size: [f64; 3], others: [[f64; 3]; 3]) -> Option<String> {
 
 /// The command line that mends the mesh.
 fn command(options: &Check, flags: &str) -> String {
-    let unit = match options.unit.to_string().as_str() {
-        "m" => String::new(),
-        unit => format!(" --unit {unit}"),
-    };
+    let unit = options.unit.map(|unit| format!(" --unit {unit}"));
+    let unit = unit.unwrap_or_default();
     let stem = options.mesh.file_stem().unwrap_or_default();
     let [mesh, out] = [
         options.mesh.display().to_string(),

@@ -251,7 +251,7 @@ fn bodies_share_one_mesh_and_their_times() {
     assert!(samplers.iter().all(|s| s["input"] == samplers[0]["input"]));
     assert_eq!(document["nodes"][3]["name"], "brick-7.0003");
     // Placed five times, read as one surface: the mesh itself, to single precision.
-    let read = read_mesh(&path, LengthUnit::M).unwrap();
+    let read = read_mesh(&path, Some(LengthUnit::M)).unwrap();
     assert_eq!(read.triangles.len(), 5 * bake.body.surface.triangles.len());
 }
 
@@ -262,7 +262,10 @@ fn the_mesh_of_a_glb_is_the_body() {
     let (folder, _) = written(&[still], Format::Glb, 60.0).unwrap();
     let path = folder.path().join("trajectory.glb");
     // A brick has three normals at each corner, and welds to itself.
-    let read = read_mesh(&path, LengthUnit::M).unwrap().body().unwrap();
+    let read = read_mesh(&path, Some(LengthUnit::M))
+        .unwrap()
+        .body()
+        .unwrap();
     assert_eq!(read.triangles().len(), bake.body.surface.triangles.len());
     assert!((read.volume() / bake.body.volume - 1.0).abs() < 1e-6);
 }

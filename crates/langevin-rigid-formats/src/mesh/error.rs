@@ -42,18 +42,11 @@ pub enum ParseError {
         "there are no triangles in it: export the surface as polygons, not as points, lines or curves"
     )]
     NoTriangles,
-    /// A glTF mesh is made of points or lines.
+    /// Neither the file nor whoever reads it says what its numbers measure.
     #[error(
-        "mesh {mesh}, primitive {primitive} is made of {kind}, not of triangles: delete it or export triangles only"
+        "the file does not state its unit of length: give `--unit` to a command, `unit` in a scene, or export glTF, which is in metres"
     )]
-    UnsupportedPrimitive {
-        /// Number of the mesh in the file, from 0.
-        mesh: usize,
-        /// Number of the primitive in the mesh, from 0.
-        primitive: usize,
-        /// What it is made of.
-        kind: &'static str,
-    },
+    NoUnit,
     /// The file uses a part of the format that is not read.
     #[error("it uses {feature}, which is not supported: {remedy}")]
     Unsupported {

@@ -1,22 +1,37 @@
-//! glTF 2.0: the triangles of the default scene.
+//! glTF 2.0: the triangles of the default scene, in the pose the file is in.
 //!
 //! Only what geometry needs is read. Every index, offset and length in the file is checked before
 //! it is used, which the `gltf` crate leaves to its caller.
 
 mod accessor;
+mod base64;
+mod beside;
 mod buffer;
 mod document;
+mod draco;
+mod expected;
+mod instancing;
+mod meshopt;
 mod node;
+mod skin;
+mod surface;
+#[cfg(test)]
+mod tests;
+mod transform;
+mod version;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::{ParseError, Place, RawMesh};
 use accessor::Accessors;
-use document::{Document, Primitive};
-use node::Transform;
-
-/// Most triangles taken from one scene, whose nodes can show one mesh over and over.
-const MOST_TRIANGLES: usize = 1 << 24;
+use buffer::Buffers;
+use document::Document;
+use instancing::Instances;
+use node::{Shown, World};
+use skin::Skins;
+use surface::Surface;
+use transform::Transform;
 
 /// Reads a JSON file, with the binary chunk of a GLB file if there is one.
 pub(super) fn parse(
@@ -24,21 +39,24 @@ pub(super) fn parse(
     chunk: Option<&[u8]>,
     folder: Option<&Path>,
 ) -> Result<RawMesh, ParseError> {
-    let document: Document = serde_json::from_slice(json)
-        .map_err(|error| ParseError::at(Place::Line(error.line()), error.to_string()))?;
+    let document: Document =
+        serde_json::from_slice(json).map_err(|error| version::fault(json, &error))?;
     document.check()?;
-    let buffers = buffer::load(&document, chunk, folder)?;
+    let buffers = Buffers::new(&document, chunk, folder);
     let accessors = Accessors {
         document: &document,
         buffers: &buffers,
     };
-    let mut mesh = RawMesh::default();
-    for (index, transform) in node::placed_meshes(&document)? {
-        let source = get(&document.meshes, index, "mesh")?;
-        for (number, primitive) in source.primitives.iter().enumerate() {
-            check_mode(primitive, index, number)?;
-            add_primitive(&mut mesh, primitive, &accessors, &transform)?;
-        }
+    let world = World::new(&document)?;
+    expected::check(&world, &accessors, json.len())?;
+    let surfaces = surfaces(&world, &accessors)?;
+    let skins = Skins::new(&accessors, &world);
+    let mut mesh = RawMesh {
+        notices: passed_over(&world, &document),
+        ..RawMesh::default()
+    };
+    for shown in &world.shown {
+        show(&mut mesh, shown, &surfaces[&shown.mesh], &accessors, &skins)?;
     }
     Ok(mesh)
 }
@@ -49,11 +67,15 @@ pub(super) fn parse_glb(bytes: &[u8], folder: Option<&Path>) -> Result<RawMesh, 
         let bytes = bytes.get(at..)?.first_chunk::<4>()?;
         Some(u32::from_le_bytes(*bytes))
     };
-    if !bytes.starts_with(b"glTF") || word(4) != Some(2) {
-        return Err(ParseError::at(
-            Place::Byte(0),
-            "this is not the header of a GLB file, version 2",
-        ));
+    match word(4).filter(|_| bytes.starts_with(b"glTF")) {
+        Some(2) => {}
+        Some(1) => return Err(version::first_version()),
+        _ => {
+            return Err(ParseError::at(
+                Place::Byte(0),
+                "this is not the header of a GLB file, version 2",
+            ));
+        }
     }
     let chunk = |at: usize, kind: &[u8]| {
         let length = word(at)? as usize;
@@ -71,100 +93,78 @@ fn get<'a, T>(list: &'a [T], index: usize, what: &str) -> Result<&'a T, ParseErr
     list.get(index).ok_or_else(missing)
 }
 
-fn check_mode(primitive: &Primitive, mesh: usize, number: usize) -> Result<(), ParseError> {
-    let kind = match primitive.mode {
-        4..=6 => return Ok(()),
-        0 => "points",
-        1..=3 => "lines",
-        mode => {
-            return Err(ParseError::at(
-                Place::File,
-                format!("there is no primitive mode {mode}"),
-            ));
-        }
+/// The surfaces of each mesh that is shown, each read once.
+fn surfaces<'a>(
+    world: &World<'a>,
+    accessors: &Accessors<'a>,
+) -> Result<BTreeMap<usize, Vec<Surface<'a>>>, ParseError> {
+    let skinned = world.shown.iter().filter(|s| s.node.skin.is_some());
+    let skinned: BTreeSet<usize> = skinned.map(|s| s.mesh).collect();
+    let of_mesh = |index| {
+        let mesh = get(&accessors.document.meshes, index, "mesh")?;
+        let drawn = mesh.primitives.iter().filter(|p| p.mode >= 4);
+        let read = |p| Surface::read(p, accessors, skinned.contains(&index)).transpose();
+        let surfaces: Result<_, ParseError> = drawn.filter_map(read).collect();
+        Ok((index, surfaces?))
     };
-    Err(ParseError::UnsupportedPrimitive {
-        mesh,
-        primitive: number,
-        kind,
-    })
+    world.meshes().into_iter().map(of_mesh).collect()
 }
 
-fn add_primitive(
+/// A sentence for each kind of primitive that is shown and has no surface.
+fn passed_over(world: &World<'_>, document: &Document) -> Vec<String> {
+    let meshes = world.meshes();
+    let shown = |modes: &[u32]| {
+        let mut primitives = meshes.iter().flat_map(|&m| &document.meshes[m].primitives);
+        primitives.any(|p| modes.contains(&p.mode))
+    };
+    [("points", &[0][..]), ("lines", &[1, 2, 3])]
+        .into_iter()
+        .filter(|(_, modes)| shown(modes))
+        .map(|(kind, _)| format!("the {kind} in it were passed over: they enclose nothing"))
+        .collect()
+}
+
+/// Adds what a node shows.
+fn show(
     mesh: &mut RawMesh,
-    primitive: &Primitive,
+    shown: &Shown<'_>,
+    surfaces: &[Surface<'_>],
     accessors: &Accessors<'_>,
-    transform: &Transform,
+    skins: &Skins<'_>,
 ) -> Result<(), ParseError> {
-    let Some(position) = primitive.attributes.position else {
-        return Ok(());
-    };
-    let positions = accessors.positions(position)?;
-    let count = positions.len() as u32;
-    let corners = match primitive.indices {
-        Some(indices) => accessors.indices(indices)?,
-        None => (0..count).collect(),
-    };
-    if let Some(v) = corners.iter().find(|&&v| v >= count) {
-        return Err(ParseError::at(
-            Place::File,
-            format!("a triangle has vertex {v}, there are {count}"),
-        ));
+    let document = accessors.document;
+    let weights = shown.node.weights.as_ref();
+    let weights = weights.unwrap_or(&document.meshes[shown.mesh].weights);
+    let instances = Instances::of(shown.node, accessors)?;
+    for surface in surfaces {
+        let positions = surface.positions(weights);
+        // A skin takes the place of the node's own transform.
+        if let Some(skin) = shown.node.skin {
+            let maps = skin::blended(surface, skins.joints(skin)?)?;
+            let placed = positions.iter().zip(&maps).map(|(&p, map)| map.apply(p));
+            let mirrored = maps.first().is_some_and(Transform::mirrors);
+            append(mesh, placed, &surface.triangles, mirrored);
+            continue;
+        }
+        for k in 0..instances.count {
+            let map = shown.transform.after(&instances.transform(k));
+            let placed = positions.iter().map(|&p| map.apply(p));
+            append(mesh, placed, &surface.triangles, map.mirrors());
+        }
     }
-    let triangles = triangles(&corners, primitive.mode);
-    if mesh.triangles.len() + triangles.len() > MOST_TRIANGLES
-        || mesh.vertices.len() + positions.len() > 3 * MOST_TRIANGLES
-    {
-        let feature = format!("more than {MOST_TRIANGLES} triangles");
-        return Err(ParseError::Unsupported {
-            feature,
-            remedy: "export a coarser mesh",
-        });
-    }
-    let first = mesh.vertices.len() as u32;
-    let turned = transform.mirrors();
-    mesh.triangles
-        .extend(triangles.into_iter().map(|[a, b, c]| {
-            if turned {
-                [first + a, first + c, first + b]
-            } else {
-                [first + a, first + b, first + c]
-            }
-        }));
-    mesh.vertices
-        .extend(positions.into_iter().map(|p| transform.apply(p)));
     Ok(())
 }
 
-/// Triangles of a list (mode 4), strip (5) or fan (6) of corners.
-fn triangles(corners: &[u32], mode: u32) -> Vec<[u32; 3]> {
-    match mode {
-        4 => corners.as_chunks::<3>().0.to_vec(),
-        5 => {
-            let wound = |(i, w): (usize, &[u32])| {
-                if i % 2 == 0 {
-                    [w[0], w[1], w[2]]
-                } else {
-                    [w[0], w[2], w[1]]
-                }
-            };
-            corners.windows(3).enumerate().map(wound).collect()
-        }
-        _ => super::fan(corners).collect(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn strips_wind_alternately_and_fans_share_a_corner() {
-        assert_eq!(triangles(&[5, 6, 7, 8, 9, 10], 4), [[5, 6, 7], [8, 9, 10]]);
-        assert_eq!(
-            triangles(&[5, 6, 7, 8, 9], 5),
-            [[5, 6, 7], [6, 8, 7], [7, 8, 9]]
-        );
-        assert_eq!(triangles(&[5, 6, 7, 8], 6), [[5, 6, 7], [5, 7, 8]]);
-    }
+fn append(
+    mesh: &mut RawMesh,
+    vertices: impl Iterator<Item = [f64; 3]>,
+    triangles: &[[u32; 3]],
+    mirrored: bool,
+) {
+    let first = mesh.vertices.len() as u32;
+    mesh.vertices.extend(vertices);
+    mesh.triangles.extend(triangles.iter().map(|t| {
+        let [a, b, c] = t.map(|corner| first + corner);
+        if mirrored { [a, c, b] } else { [a, b, c] }
+    }));
 }

@@ -108,7 +108,7 @@ fn vertex_number(word: &str, so_far: usize, total: usize) -> Result<u32, String>
 /// let brick = Shape::Box { size: [0.2, 0.1, 0.05] }.mesh(12)?;
 /// let mut file = Vec::new();
 /// write_obj(&brick, &mut file)?;
-/// assert_eq!(parse_mesh(&file, MeshFormat::Obj, LengthUnit::M, None)?.body()?, brick);
+/// assert_eq!(parse_mesh(&file, MeshFormat::Obj, Some(LengthUnit::M), None)?.body()?, brick);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

@@ -11,7 +11,7 @@ const ALL: [MeshFormat; 5] = [
 ];
 
 fn parse(bytes: &[u8], format: MeshFormat) -> Result<RawMesh, ParseError> {
-    parse_mesh(bytes, format, LengthUnit::M, None)
+    parse_mesh(bytes, format, Some(LengthUnit::M), None)
 }
 
 fn obj(mesh: &TriMesh) -> Vec<u8> {
@@ -285,7 +285,7 @@ fn units_scale_to_metres() {
     let body = Shape::Box { size: [1.0; 3] }.mesh(12).unwrap();
     for (symbol, volume) in [("m", 1.0), ("cm", 1e-6), ("mm", 1e-9)] {
         let unit = symbol.parse().unwrap();
-        let read = parse_mesh(&obj(&body), MeshFormat::Obj, unit, None)
+        let read = parse_mesh(&obj(&body), MeshFormat::Obj, Some(unit), None)
             .unwrap()
             .body()
             .unwrap();
@@ -482,14 +482,7 @@ fn gltf_strips_and_fans_are_triangles_and_lines_are_not() {
     assert_eq!(with_mode(4).unwrap().triangles.len(), 12);
     assert_eq!(with_mode(5).unwrap().triangles.len(), 34);
     assert_eq!(with_mode(6).unwrap().triangles.len(), 34);
-    assert_eq!(
-        with_mode(1),
-        Err(ParseError::UnsupportedPrimitive {
-            mesh: 0,
-            primitive: 0,
-            kind: "lines"
-        })
-    );
+    assert_eq!(with_mode(1), Err(ParseError::NoTriangles));
 }
 
 #[test]
@@ -516,8 +509,8 @@ fn gltf_faults_are_named() {
         ),
         (
             r#""scene":0,"#,
-            r#""scene":0,"extensionsRequired":["KHR_draco_mesh_compression"],"#,
-            "KHR_draco_mesh_compression",
+            r#""scene":0,"extensionsRequired":["EXT_unheard_of"],"#,
+            "the extension EXT_unheard_of",
         ),
         (
             "data:application/octet-stream;base64,",
@@ -530,11 +523,6 @@ fn gltf_faults_are_named() {
             "accessor 0 reaches beyond its buffer",
         ),
         (r#""bufferView":0,"#, "", "accessor 0 has no buffer view"),
-        (
-            r#""bufferView":0,"#,
-            r#""bufferView":0,"sparse":{"count":1},"#,
-            "sparse storage",
-        ),
         (r#"{"asset""#, r#"{"asset"::"#, "line 1: "),
     ] {
         assert!(good.contains(from), "{from}");
@@ -570,7 +558,7 @@ fn files_are_found_out_by_content_and_buffers_beside_them() {
     for (format, bytes) in files(&body) {
         for name in ["body", "body.xyz", "body.obj", "body.stl"] {
             std::fs::write(folder.0.join(name), &bytes).unwrap();
-            let read = read_mesh(&folder.0.join(name), LengthUnit::M).unwrap();
+            let read = read_mesh(&folder.0.join(name), Some(LengthUnit::M)).unwrap();
             assert!(read.body().is_ok(), "{format:?} as {name}");
         }
     }
@@ -578,14 +566,14 @@ fn files_are_found_out_by_content_and_buffers_beside_them() {
     let beside = gltf_json(&body, r#""uri":"a%20buffer.bin","#, "");
     std::fs::write(folder.0.join("body.gltf"), &beside).unwrap();
     assert!(
-        read_mesh(&folder.0.join("body.gltf"), LengthUnit::M)
+        read_mesh(&folder.0.join("body.gltf"), Some(LengthUnit::M))
             .unwrap()
             .body()
             .is_ok()
     );
     let missing = beside.replace("a%20buffer", "another");
     std::fs::write(folder.0.join("body.gltf"), missing).unwrap();
-    let error = read_mesh(&folder.0.join("body.gltf"), LengthUnit::M)
+    let error = read_mesh(&folder.0.join("body.gltf"), Some(LengthUnit::M))
         .unwrap_err()
         .to_string();
     assert!(
@@ -597,7 +585,7 @@ fn files_are_found_out_by_content_and_buffers_beside_them() {
 #[test]
 fn unreadable_files_are_told_apart() {
     let folder = Folder::new("mesh-errors");
-    let read = |name: &str| read_mesh(&folder.0.join(name), LengthUnit::M).unwrap_err();
+    let read = |name: &str| read_mesh(&folder.0.join(name), Some(LengthUnit::M)).unwrap_err();
     assert!(matches!(read("missing.obj"), ReadError::NotFound { .. }));
     assert!(matches!(read("."), ReadError::Unreadable { .. }));
     std::fs::write(folder.0.join("photo.png"), b"\x89PNG\r\n").unwrap();

@@ -7,7 +7,7 @@ use serde_spanned::Spanned;
 use super::place::{Document, SceneError};
 use super::raw::{Given, RawBody, given};
 use super::{BodySource, Geometry};
-use crate::mesh::LengthUnit;
+use crate::mesh::{LengthUnit, MeshFormat};
 
 /// Triangles of a parametric body where the scene does not say.
 const DEFAULT_TRIANGLES: usize = 1280;
@@ -96,14 +96,16 @@ fn from_file(
         let message = "`triangles` belongs to parametric shapes; a mesh file has its own";
         return Err(doc.error(triangles.span(), message));
     }
-    let Some(unit) = &body.unit else {
+    let format = MeshFormat::of_extension(mesh.get_ref().as_ref());
+    if body.unit.is_none() && format.is_some_and(|format| format.unit().is_none()) {
         let message = "a mesh file needs its `unit` of length: \"m\", \"cm\" or \"mm\"";
         return Err(doc.error(mesh.span(), message));
-    };
+    }
+    let unit = body.unit.as_ref().map(|unit| doc.name::<LengthUnit>(unit));
     let thickness = |t| doc.positive(t, "`thickness` (m)");
     Ok(Geometry::Mesh {
         path: mesh.get_ref().into(),
-        unit: doc.name::<LengthUnit>(unit)?,
+        unit: unit.transpose()?,
         thickness: body.thickness.as_ref().map(thickness).transpose()?,
     })
 }
@@ -323,7 +325,7 @@ pub(super) fn write(source: &BodySource) -> RawBody {
             thickness,
         } => RawBody {
             mesh: given(path.to_string_lossy().into_owned()),
-            unit: given(unit.to_string()),
+            unit: unit.and_then(|unit| given(unit.to_string())),
             thickness: thickness.and_then(given),
             ..RawBody::default()
         },
@@ -430,5 +432,31 @@ fn write_blade(name: &str, [length, width, thickness]: [f64; 3]) -> RawBody {
         width: given(width),
         thickness: given(thickness),
         ..RawBody::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::baking;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_mesh_needs_its_unit_unless_its_format_has_one() {
+        let scene = |mesh: &str| {
+            let text = format!(
+                "[fluid]\npreset = \"water\"\n[body]\nmesh = {mesh:?}\ndensity = 2000.0\n\
+                 [release]\nposition = [0.0, 1.0, 0.0]\n[run]\ntime_step = 0.01\nduration = 1.0\n"
+            );
+            Scene::parse("body", "body.toml", &text)
+        };
+        let error = scene("body.stl").unwrap_err();
+        assert_eq!(error.line, 4);
+        assert!(error.to_string().contains("needs its `unit`"), "{error}");
+        let ball = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/ball-meshopt.glb");
+        let scene = scene(ball).unwrap();
+        let (mesh, notices) = baking::mesh(&scene).unwrap();
+        assert!((mesh.volume() - 0.506).abs() < 1e-3 && notices.is_empty());
+        let again = Scene::parse("body", "resolved", &scene.to_toml().unwrap()).unwrap();
+        assert_eq!(again, scene);
     }
 }

@@ -1,52 +1,130 @@
-//! Buffers: in the file, embedded as base64, or in files beside it.
+//! Buffers and the views of them: in the file, embedded as base64, in files beside it, or compressed.
 
+use std::borrow::Cow;
+use std::cell::{Cell, OnceCell};
 use std::path::Path;
 
-use super::super::ParseError;
-use super::document::{Buffer, Document};
+use super::super::{ParseError, Place};
+use super::document::{Buffer, BufferView, Document, Meshopt};
+use super::{base64, beside, get, meshopt};
 
-/// The bytes of every buffer, at least as many as the document says.
-pub(super) fn load(
-    document: &Document,
-    chunk: Option<&[u8]>,
-    folder: Option<&Path>,
-) -> Result<Vec<Vec<u8>>, ParseError> {
-    document
-        .buffers
-        .iter()
-        .map(|buffer| load_one(buffer, chunk, folder))
-        .collect()
+/// Bytes that may be made of compressed and sparse data of any size.
+const ALWAYS_MADE: usize = 1 << 26;
+/// Bytes more for each byte read.
+const MOST_GROWTH: usize = 256;
+
+/// The buffers of a document, each read when it is first used.
+pub(super) struct Buffers<'a> {
+    document: &'a Document,
+    chunk: Option<&'a [u8]>,
+    folder: Option<&'a Path>,
+    buffers: Vec<OnceCell<Cow<'a, [u8]>>>,
+    decompressed: Vec<OnceCell<Vec<u8>>>,
+    /// Bytes of buffers in use, and bytes made of them.
+    read: Cell<usize>,
+    made: Cell<usize>,
 }
 
-fn load_one(
-    buffer: &Buffer,
-    chunk: Option<&[u8]>,
-    folder: Option<&Path>,
-) -> Result<Vec<u8>, ParseError> {
-    let uri = buffer.uri.as_deref();
-    let error = |reason: String| ParseError::Buffer {
-        uri: shortened(uri),
-        reason,
-    };
-    let bytes = match uri {
-        None => chunk
-            .ok_or_else(|| error("there is no binary chunk".to_owned()))?
-            .to_vec(),
-        Some(uri) => match uri.strip_prefix("data:") {
-            Some(data) => {
-                embedded(data).ok_or_else(|| error("its base64 text is broken".to_owned()))?
-            }
-            None => beside(uri, folder).map_err(error)?,
-        },
-    };
-    if bytes.len() < buffer.byte_length {
-        return Err(error(format!(
-            "{} bytes instead of {}",
-            bytes.len(),
-            buffer.byte_length
-        )));
+impl<'a> Buffers<'a> {
+    pub(super) fn new(
+        document: &'a Document,
+        chunk: Option<&'a [u8]>,
+        folder: Option<&'a Path>,
+    ) -> Buffers<'a> {
+        Buffers {
+            document,
+            chunk,
+            folder,
+            buffers: vec![OnceCell::new(); document.buffers.len()],
+            decompressed: vec![OnceCell::new(); document.buffer_views.len()],
+            read: Cell::new(0),
+            made: Cell::new(0),
+        }
     }
-    Ok(bytes)
+
+    /// Bytes of the buffers used so far.
+    pub(super) fn size(&self) -> usize {
+        self.read.get()
+    }
+
+    /// The bytes of a view, and the view.
+    pub(super) fn view(&self, index: usize) -> Result<(&[u8], &'a BufferView), ParseError> {
+        let view = get(&self.document.buffer_views, index, "buffer view")?;
+        let bytes = match view.meshopt() {
+            Some(packed) => once(&self.decompressed[index], || self.decompress(packed))?,
+            None => self.part(view.buffer, view.byte_offset, view.byte_length)?,
+        };
+        Ok((bytes, view))
+    }
+
+    fn decompress(&self, packed: &Meshopt) -> Result<Vec<u8>, ParseError> {
+        let bytes = self.part(packed.buffer, packed.byte_offset, packed.byte_length)?;
+        self.charge(packed.count.checked_mul(packed.byte_stride))?;
+        meshopt::decompress(bytes, packed)
+    }
+
+    /// Counts bytes that will be made, refusing more than the bytes read account for.
+    pub(super) fn charge(&self, bytes: Option<usize>) -> Result<(), ParseError> {
+        let most = MOST_GROWTH
+            .saturating_mul(self.size())
+            .saturating_add(ALWAYS_MADE);
+        let made = bytes.and_then(|bytes| self.made.get().checked_add(bytes));
+        let made = made.filter(|&made| made <= most).ok_or_else(|| {
+            ParseError::at(
+                Place::File,
+                "its compressed or sparse data grow out of proportion",
+            )
+        })?;
+        self.made.set(made);
+        Ok(())
+    }
+
+    fn part(&self, index: usize, offset: usize, length: usize) -> Result<&[u8], ParseError> {
+        let buffer = get(&self.document.buffers, index, "buffer")?;
+        let bytes = once(&self.buffers[index], || self.load(index, buffer))?;
+        slice(bytes, offset, length).ok_or_else(|| {
+            let reason = format!("a buffer view reaches beyond buffer {index}");
+            ParseError::at(Place::File, reason)
+        })
+    }
+
+    fn load(&self, index: usize, buffer: &Buffer) -> Result<Cow<'a, [u8]>, ParseError> {
+        let uri = buffer.uri.as_deref();
+        let error = |reason: String| ParseError::Buffer {
+            uri: shortened(uri),
+            reason,
+        };
+        let bytes = match uri {
+            None => {
+                let chunk = self.chunk.filter(|_| index == 0);
+                Cow::Borrowed(chunk.ok_or_else(|| error("there is no binary chunk".to_owned()))?)
+            }
+            Some(uri) => Cow::Owned(match uri.strip_prefix("data:") {
+                Some(data) => base64::embedded(data)
+                    .ok_or_else(|| error("its base64 text is broken".to_owned()))?,
+                None => beside::read(uri, buffer.byte_length, self.folder).map_err(error)?,
+            }),
+        };
+        if bytes.len() < buffer.byte_length {
+            let reason = format!("{} bytes instead of {}", bytes.len(), buffer.byte_length);
+            return Err(error(reason));
+        }
+        self.read.set(self.read.get().saturating_add(bytes.len()));
+        Ok(bytes)
+    }
+}
+
+fn once<T>(
+    cell: &OnceCell<T>,
+    make: impl FnOnce() -> Result<T, ParseError>,
+) -> Result<&T, ParseError> {
+    match cell.get() {
+        Some(value) => Ok(value),
+        None => {
+            let value = make()?;
+            Ok(cell.get_or_init(|| value))
+        }
+    }
 }
 
 fn shortened(uri: Option<&str>) -> String {
@@ -55,96 +133,6 @@ fn shortened(uri: Option<&str>) -> String {
     })
 }
 
-/// The data of `[<media type>];base64,<text>`.
-fn embedded(data: &str) -> Option<Vec<u8>> {
-    let (kind, text) = data.split_once(',')?;
-    kind.ends_with(";base64").then(|| base64(text)).flatten()
-}
-
-/// A file named relative to the folder, with percent-encoded characters.
-fn beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
-    let folder = folder.ok_or("the folder of the file is not known")?;
-    let name = percent_decoded(uri).ok_or("its name is broken")?;
-    if name.contains("://") || Path::new(&name).is_absolute() {
-        return Err("only names relative to the file are read".to_owned());
-    }
-    std::fs::read(folder.join(name)).map_err(|error| error.to_string())
-}
-
-fn percent_decoded(uri: &str) -> Option<String> {
-    let mut bytes = Vec::with_capacity(uri.len());
-    let mut rest = uri.as_bytes();
-    while let Some((&first, tail)) = rest.split_first() {
-        if first == b'%' {
-            let hex = std::str::from_utf8(tail.get(..2)?).ok()?;
-            bytes.push(u8::from_str_radix(hex, 16).ok()?);
-            rest = &tail[2..];
-        } else {
-            bytes.push(first);
-            rest = tail;
-        }
-    }
-    String::from_utf8(bytes).ok()
-}
-
-/// Decodes base64 (RFC 4648, section 4), the padding optional.
-fn base64(text: &str) -> Option<Vec<u8>> {
-    let text = text.trim_end_matches('=').as_bytes();
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 2);
-    for group in text.chunks(4) {
-        let mut bits = 0u32;
-        for &letter in group {
-            bits = bits << 6 | sextet(letter)?;
-        }
-        // A group of 2, 3, 4 letters holds 1, 2, 3 bytes, from the top of its 24 bits.
-        let held = group.len().checked_sub(1).filter(|&n| n > 0)?;
-        bits <<= 6 * (4 - group.len());
-        bytes.extend_from_slice(&bits.to_be_bytes()[1..=held]);
-    }
-    Some(bytes)
-}
-
-fn sextet(letter: u8) -> Option<u32> {
-    let value = match letter {
-        b'A'..=b'Z' => letter - b'A',
-        b'a'..=b'z' => letter - b'a' + 26,
-        b'0'..=b'9' => letter - b'0' + 52,
-        b'+' => 62,
-        b'/' => 63,
-        _ => return None,
-    };
-    Some(u32::from(value))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn base64_decodes_the_test_vectors_of_rfc_4648() {
-        for (text, bytes) in [
-            ("", ""),
-            ("Zg==", "f"),
-            ("Zm8=", "fo"),
-            ("Zm9v", "foo"),
-            ("Zm9vYg==", "foob"),
-            ("Zm9vYmE=", "fooba"),
-            ("Zm9vYmFy", "foobar"),
-            ("Zm9vYg", "foob"),
-        ] {
-            assert_eq!(base64(text).as_deref(), Some(bytes.as_bytes()), "{text}");
-        }
-        assert_eq!(base64("Z"), None);
-        assert_eq!(base64("Zm9*"), None);
-    }
-
-    #[test]
-    fn names_are_percent_decoded() {
-        assert_eq!(
-            percent_decoded("a%20b%C3%A9.bin").as_deref(),
-            Some("a bé.bin")
-        );
-        assert_eq!(percent_decoded("a%2"), None);
-        assert_eq!(percent_decoded("a%zz"), None);
-    }
+pub(super) fn slice(bytes: &[u8], offset: usize, length: usize) -> Option<&[u8]> {
+    bytes.get(offset..offset.checked_add(length)?)
 }
