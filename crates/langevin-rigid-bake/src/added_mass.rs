@@ -20,6 +20,7 @@
 
 mod assembly;
 mod clusters;
+mod coarsen;
 mod columns;
 mod discretize;
 mod edges;
@@ -40,6 +41,7 @@ mod operator;
 mod outcome;
 mod panels;
 mod precondition;
+mod quadric;
 mod refine;
 mod report;
 mod shape;
@@ -135,7 +137,7 @@ pub fn added_mass(
     progress: &dyn Progress,
 ) -> Result<AddedMass, AddedMassError> {
     check_size(mesh.triangles().len(), options)?;
-    let body = Discretized::new(mesh, options);
+    let body = Discretized::new(mesh, options, progress)?;
     check_size(body.triangles.len(), options)?;
     let flow = Flow::solve(&body, progress)?;
     Ok(flow.outcome(mesh, &body))

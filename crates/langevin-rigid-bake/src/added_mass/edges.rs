@@ -5,7 +5,7 @@ use crate::mesh::vector::{cross, dot, norm, sub, unit};
 
 /// Angle between the normals beyond which an edge is one of the body rather than of the mesh. Off
 /// the angles of regular prisms, so that rounding never decides.
-const SHARP: f64 = 31.0 * std::f64::consts::PI / 180.0;
+pub(super) const SHARP: f64 = 31.0 * std::f64::consts::PI / 180.0;
 
 /// Every undirected edge once, and the edge of each triangle's sides (side k starts at corner k).
 pub(super) struct Edges {

@@ -8,6 +8,7 @@ use super::flow::HIERARCHICAL;
 use super::near::{self, NearPairs, facing};
 use super::outcome::FACETING;
 use super::panels::{Panel, Panels};
+use super::report::Cancel;
 use super::{AddedMassError, Options, check_size};
 use crate::mesh::TriMesh;
 use crate::mesh::vector::{bounding_box, cross, norm, sub};
@@ -69,10 +70,10 @@ pub struct Thinnest {
 /// [`AddedMassError::TooLarge`] for more triangles than `options` allow.
 pub fn expected(mesh: &TriMesh, options: &Options) -> Result<Expected, AddedMassError> {
     check_size(mesh.triangles().len(), options)?;
-    let body = Discretized::new(mesh, options);
+    let body = Discretized::new(mesh, options, &())?;
     check_size(body.triangles.len(), options)?;
     let panels = Panels::new(&body.vertices, &body.triangles);
-    let pairs = NearPairs::find(&panels.panels);
+    let pairs = NearPairs::find(&panels.panels, &Cancel::new(&(), "near pairs", 1))?;
     let missed = FACETING * body.faceting() + QUADRATURE * body.frame.volume;
     let broadside = broadside(&body, &panels.panels);
     Ok(Expected {

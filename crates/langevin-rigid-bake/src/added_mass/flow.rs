@@ -43,11 +43,9 @@ impl Flow {
     ) -> Result<Flow, AddedMassError> {
         let panels = Panels::new(&body.vertices, &body.triangles);
         let cancel = Cancel::new(progress, "near pairs", 1);
-        cancel.check()?;
-        let mut pairs = NearPairs::find(&panels.panels);
+        let mut pairs = NearPairs::find(&panels.panels, &cancel)?;
         let thickness = near::thickness(&panels.panels, &pairs);
-        let mut sums = near::integrate(&panels, &mut pairs, thickness.sheet);
-        cancel.check()?;
+        let mut sums = near::integrate(&panels, &mut pairs, thickness.sheet, &cancel)?;
         let w = Form::new(hierarchical, &panels, &pairs, &mut sums, progress)?;
         let loads = load::loads(&panels, &sums, w.operator());
         let single_layer = single_layer_energy(&panels.panels, &sums);
@@ -210,7 +208,7 @@ mod tests {
 
     fn tensor(hierarchical: bool, shape: &Shape, triangles: usize) -> [Six; 6] {
         let mesh = shape.mesh(triangles).unwrap();
-        let body = Discretized::new(&mesh, &Options::default());
+        let body = Discretized::new(&mesh, &Options::default(), &()).unwrap();
         let flow = Flow::solve_as(hierarchical, &body, &()).unwrap();
         flow.tensor
     }

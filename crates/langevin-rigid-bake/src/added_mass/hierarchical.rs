@@ -18,7 +18,7 @@ use super::matrix::Six;
 use super::near::NearPairs;
 use super::operator::{Operator, SparseRow};
 use super::panels::{Panel, Panels, Vec3};
-use super::report::Cancel;
+use super::report::{Cancel, check_memory};
 use super::sums::RowSums;
 use crate::mesh::vector::{add, cross, scale, sub};
 
@@ -26,6 +26,8 @@ use crate::mesh::vector::{add, cross, scale, sub};
 type Expansion = [Columns; TERMS];
 
 const EMPTY: Expansion = [NONE; TERMS];
+/// Most memory for the pairs of near leaves (bytes): twice what even meshes of the most triangles take.
+const MOST_BLOCKS: usize = 6_000_000_000;
 
 /// The operator.
 pub(super) struct Hierarchical<'a> {
@@ -58,6 +60,13 @@ impl<'a> Hierarchical<'a> {
         cancel: &Cancel,
     ) -> Result<Hierarchical<'a>, AddedMassError> {
         let clusters = Clusters::new(&panels.panels);
+        let entries: usize = clusters
+            .near
+            .iter()
+            .map(|pair| pair.map(|c| clusters.panels(c as usize).len()))
+            .map(|[rows, columns]| rows * columns)
+            .sum();
+        check_memory(entries * size_of::<f32>(), MOST_BLOCKS)?;
         let mut neighbours = vec![Vec::new(); clusters.clusters.len()];
         for (block, &[a, b]) in clusters.near.iter().enumerate() {
             let block = block as u32;
