@@ -48,6 +48,9 @@ impl Discretized {
         progress: &dyn Progress,
     ) -> Result<Discretized, AddedMassError> {
         let (frame, vertices) = Frame::new(mesh.vertices(), mesh.triangles());
+        if !frame.is_in_range() {
+            return Err(AddedMassError::Size { size: frame.unit });
+        }
         let mut body = Discretized {
             frame,
             vertices,

@@ -38,7 +38,7 @@ impl Edges {
     }
 
     /// The two triangles of each edge of a closed mesh.
-    fn triangles(&self) -> Vec<[u32; 2]> {
+    pub(super) fn triangles(&self) -> Vec<[u32; 2]> {
         // The later of the two overwrites the second entry.
         let mut of = vec![None; self.ends.len()];
         for (t, sides) in self.sides.iter().enumerate() {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::discretize::Discretized;
-use super::edges::{Edges, folds};
+use super::edges::{Edges, Fold, folds};
 use super::flow::HIERARCHICAL;
 use super::near::{self, NearPairs, facing};
 use super::outcome::FACETING;
@@ -17,6 +17,9 @@ use crate::mesh::vector::{bounding_box, cross, norm, sub};
 /// grow with the triangles and their square, with clusters with a power of them.
 const PER_TRIANGLE: f64 = 6.7e-6;
 const PER_PAIR: f64 = 6.7e-9;
+/// The near pairs of a triangle that these figures hold, and what each more of them takes, seen both ways.
+const USUAL_NEAR: f64 = 80.0;
+const PER_NEAR_PAIR: f64 = 1e-7;
 const CLUSTERS: f64 = 2.9e-5;
 const CLUSTERS_POWER: f64 = 1.16;
 /// Allowance for the second solve, without the edge layer, and slower convergence of bodies with edges: not
@@ -28,6 +31,7 @@ const WITH_EDGES: f64 = 1.5;
 /// 1 : 1 : 0.1 and rods 1 : 15 of 1700 to 39,000 triangles. Where the body is thinner than the triangles are
 /// high, the potentials are those of a plate, with the first power.
 const EDGES: f64 = 0.25;
+const SHARPER: f64 = 1.0;
 
 /// What the integrals over pairs of panels miss of the volume, seen from 3e-5 to 1e-4.
 const QUADRATURE: f64 = 5e-5;
@@ -79,19 +83,21 @@ pub fn expected(mesh: &TriMesh, options: &Options) -> Result<Expected, AddedMass
     Ok(Expected {
         triangles_solved: body.triangles.len(),
         error_estimate: EDGES * at_edges(&body) + missed / broadside,
-        seconds: seconds(&body),
+        seconds: seconds(&body, pairs.count()),
         thickness_ratio: near::thickness(&panels.panels, &pairs).ratio,
         thinnest: thinnest(&body, &panels.panels, &pairs),
     })
 }
 
-fn seconds(body: &Discretized) -> f64 {
+fn seconds(body: &Discretized, pairs: usize) -> f64 {
     let n = body.triangles.len() as f64;
-    let alone = if body.vertices.len() < HIERARCHICAL {
-        n * (PER_TRIANGLE + PER_PAIR * n)
-    } else {
-        CLUSTERS * libm::pow(n, CLUSTERS_POWER)
-    };
+    let crowded = PER_NEAR_PAIR * (pairs as f64 - USUAL_NEAR * n).max(0.0);
+    let alone = crowded
+        + if body.vertices.len() < HIERARCHICAL {
+            n * (PER_TRIANGLE + PER_PAIR * n)
+        } else {
+            CLUSTERS * libm::pow(n, CLUSTERS_POWER)
+        };
     let edges = if body.inserted.is_empty() {
         1.0
     } else {
@@ -104,11 +110,13 @@ fn seconds(body: &Discretized) -> f64 {
 fn at_edges(body: &Discretized) -> f64 {
     let area = body.frame.area;
     let thickness = 2.0 * body.frame.volume / area;
-    let of_fold = |triangles: [usize; 2], length: f64| {
-        let [s, t] = triangles.map(|t| area_of(body, t));
-        let height = (s + t) / length;
+    let of_fold = |fold: &Fold| {
+        let [s, t] = fold.triangles.map(|t| area_of(body, t));
+        let (length, height) = (fold.length, (s + t) / fold.length);
+        let power = 2.0 * std::f64::consts::PI / (std::f64::consts::PI + fold.turn);
         let plate = libm::cbrt((height / thickness).max(1.0));
-        length * height * libm::cbrt(height) * plate
+        let sharper = libm::pow(SHARPER, 4.0 / 3.0 - power);
+        sharper * length * libm::pow(height, power) / libm::pow(area, 0.5 + 0.5 * power) * plate
     };
     let folds = folds(
         &Edges::new(&body.triangles),
@@ -116,8 +124,7 @@ fn at_edges(body: &Discretized) -> f64 {
         &body.triangles,
     );
     let sharp = folds.iter().filter(|fold| fold.is_sharp());
-    let sum: f64 = sharp.map(|fold| of_fold(fold.triangles, fold.length)).sum();
-    sum / libm::pow(area, 7.0 / 6.0)
+    sharp.map(of_fold).sum()
 }
 
 fn area_of(body: &Discretized, triangle: usize) -> f64 {
@@ -197,6 +204,66 @@ mod tests {
         for semi_axes in [[1.0; 3], [1.0, 2.0, 4.0], [1.0, 1.0, 0.2]] {
             check(&Shape::Ellipsoid { semi_axes }, 1280);
             check(&Shape::Ellipsoid { semi_axes }, 5120);
+        }
+    }
+
+    fn turned(profile: &[[f64; 2]], n: usize) -> TriMesh {
+        // Around Z through [r, z], poles at the ends.
+        let rings = profile.len() - 2;
+        let mut vertices = vec![[0.0, 0.0, profile[0][1]], [0.0, 0.0, profile[rings + 1][1]]];
+        for [r, z] in &profile[1..=rings] {
+            vertices.extend((0..n).map(|i| {
+                let angle = std::f64::consts::TAU * i as f64 / n as f64;
+                [r * libm::cos(angle), r * libm::sin(angle), *z]
+            }));
+        }
+        let at = |ring: usize, i: usize| (2 + ring * n + i % n) as u32;
+        let mut triangles = Vec::new();
+        for i in 0..n {
+            triangles.push([0, at(0, i + 1), at(0, i)]);
+            triangles.push([1, at(rings - 1, i), at(rings - 1, i + 1)]);
+            for k in 1..rings {
+                triangles.push([at(k - 1, i), at(k - 1, i + 1), at(k, i)]);
+                triangles.push([at(k - 1, i + 1), at(k, i + 1), at(k, i)]);
+            }
+        }
+        TriMesh::new(vertices, triangles).unwrap()
+    }
+
+    #[test]
+    fn fit() {
+        let cone = |h: f64| vec![[0.0, 0.0], [1.0, 0.0], [0.0, h]];
+        let spindle = |h: f64| vec![[0.0, -h], [1.0, 0.0], [0.0, h]];
+        let cylinder = |h: f64| vec![[0.0, 0.0], [1.0, 0.0], [1.0, h], [0.0, h]];
+        let mut bodies: Vec<(String, TriMesh)> = Vec::new();
+        for h in [0.2, 0.5, 1.0, 3.0, 10.0] {
+            bodies.push((format!("cone {h}"), turned(&cone(h), 50)));
+            bodies.push((format!("cylinder {h}"), turned(&cylinder(h), 50)));
+            bodies.push((format!("spindle {h}"), turned(&spindle(h), 50)));
+        }
+        for n in [30, 200, 1000] {
+            bodies.push((format!("cone n {n}"), turned(&cone(1.0), n)));
+            bodies.push((format!("cylinder n {n}"), turned(&cylinder(1.0), n)));
+        }
+        for (name, mesh) in bodies {
+            let start = std::time::Instant::now();
+            let f = expected(&mesh, &Options::default()).unwrap();
+            let t1 = start.elapsed().as_secs_f64();
+            let g = added_mass(&mesh, &Options::default(), &()).unwrap();
+            let q = g.quality;
+            eprintln!(
+                "{name:16} n {:5} est {:.5} foretold {:.5} ratio {:.2} corr {:.5} quad {:.5} it {} t {:.2} {:.2} check {:.2}",
+                q.triangles_solved,
+                g.error_estimate,
+                f.error_estimate,
+                g.error_estimate / f.error_estimate,
+                q.edge_correction,
+                q.quadrature_error,
+                q.iterations,
+                f.seconds,
+                start.elapsed().as_secs_f64() - t1,
+                t1
+            );
         }
     }
 

@@ -65,6 +65,12 @@ impl Flow {
             let q = layer::shrinkage(&panels, &pairs);
             tensor = extrapolated(&layered, &plus(&single_layer, &energy), q);
         }
+        if !tensor.iter().flatten().all(|entry| entry.is_finite()) {
+            return Err(AddedMassError::Singular {
+                iteration: solution.iterations,
+                energy: f64::NAN,
+            });
+        }
         let volume = (0..3).map(|k| single_layer[k][k]).sum();
         Ok(Flow {
             layered,
@@ -93,7 +99,7 @@ impl<'a> Form<'a> {
         panels: &'a Panels,
         pairs: &'a NearPairs,
         sums: &mut [RowSums],
-        progress: &dyn Progress,
+        progress: &'a dyn Progress,
     ) -> Result<Form<'a>, AddedMassError> {
         if !hierarchical {
             let vertices = panels.vertices.len();
@@ -102,8 +108,7 @@ impl<'a> Form<'a> {
                 panels, pairs, sums, &cancel,
             )?));
         }
-        let cancel = Cancel::new(progress, "clusters", 1);
-        let w = Hierarchical::new(panels, pairs, sums, &cancel)?;
+        let w = Hierarchical::new(panels, pairs, sums, progress)?;
         Ok(Form::Hierarchical(Box::new(w)))
     }
 
@@ -133,11 +138,8 @@ struct System<'a> {
 
 impl System<'_> {
     fn solve(&self, start: Vec<Six>, cancel: &Cancel) -> Result<Solution, AddedMassError> {
-        let preconditioner = Preconditioner::new(self.w, self.vertices, self.thickness.sheet)
-            .ok_or(AddedMassError::Singular {
-                iteration: 0,
-                energy: 0.0,
-            })?;
+        let preconditioner =
+            Preconditioner::new(self.w, self.vertices, self.thickness.sheet, cancel)?;
         solve(self.w, self.loads, start, &preconditioner, cancel)
     }
 }

@@ -21,6 +21,7 @@ use super::panels::{Panel, Panels, Vec3};
 use super::report::{Cancel, check_memory};
 use super::sums::RowSums;
 use crate::mesh::vector::{add, cross, scale, sub};
+use crate::progress::Progress;
 
 /// An expansion of each density.
 type Expansion = [Columns; TERMS];
@@ -42,6 +43,8 @@ pub(super) struct Hierarchical<'a> {
     weights: Vec<[f64; TERMS]>,
     /// Panels and corners at each vertex.
     stars: Vec<Vec<(u32, u8)>>,
+    /// Once it cancels, products are worth nothing and end soon: who asked for them asks it too.
+    progress: &'a dyn Progress,
 }
 
 #[derive(Clone, Copy)]
@@ -57,7 +60,7 @@ impl<'a> Hierarchical<'a> {
         panels: &'a Panels,
         pairs: &'a NearPairs,
         sums: &mut [RowSums],
-        cancel: &Cancel,
+        progress: &'a dyn Progress,
     ) -> Result<Hierarchical<'a>, AddedMassError> {
         let clusters = Clusters::new(&panels.panels);
         let entries: usize = clusters
@@ -101,9 +104,12 @@ impl<'a> Hierarchical<'a> {
             clusters,
             neighbours,
             stars,
+            progress,
         };
-        operator.integrate(sums, cancel)?;
+        let cancel = Cancel::new(progress, "clusters", 1);
+        operator.integrate(sums, &cancel)?;
         operator.add_far_sums(sums);
+        cancel.check()?;
         Ok(operator)
     }
 
@@ -228,6 +234,9 @@ impl<'a> Hierarchical<'a> {
     }
 
     fn far_sums(&self, leaf: usize, locals: &[Expansion]) -> Vec<(usize, RowSums)> {
+        if self.progress.cancelled() {
+            return Vec::new();
+        }
         let centre = self.clusters.clusters[leaf].centre;
         let members = self.clusters.panels(leaf).iter().map(|&a| {
             let panel = &self.panels.panels[a as usize];
@@ -282,6 +291,9 @@ impl<'a> Hierarchical<'a> {
         let clusters = &self.clusters.clusters;
         let from_afar = |(c, far): (usize, &Vec<u32>)| {
             let mut local = EMPTY;
+            if self.progress.cancelled() {
+                return local;
+            }
             for &other in far {
                 let other = other as usize;
                 let d = sub(clusters[c].centre, clusters[other].centre);
@@ -305,6 +317,9 @@ impl<'a> Hierarchical<'a> {
     fn potentials(&self, leaf: usize, curls: &[Columns], local: &Expansion) -> Vec<Columns> {
         let members = self.clusters.panels(leaf);
         let mut potentials = vec![NONE; members.len()];
+        if self.progress.cancelled() {
+            return potentials;
+        }
         for (potential, &a) in potentials.iter_mut().zip(members) {
             combine(&self.weights[a as usize], local, potential);
         }

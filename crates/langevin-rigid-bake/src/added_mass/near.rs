@@ -70,6 +70,11 @@ impl NearPairs {
         (&self.columns[range.clone()], &self.values[range])
     }
 
+    /// How many there are, both ways.
+    pub(super) fn count(&self) -> usize {
+        self.columns.len()
+    }
+
     fn columns(&self, a: usize) -> &[u32] {
         &self.columns[self.start[a]..self.start[a + 1]]
     }

@@ -137,14 +137,14 @@ fn base_side(sides: &[u32; 3], lengths: &[f32], flat: &[bool]) -> usize {
 
 /// A triangle with any marked side is cut across its base first.
 fn close(edges: &Edges, base: &[usize], marked: &mut [bool]) {
-    let mut changed = true;
-    while changed {
-        changed = false;
-        for (sides, &k) in edges.sides.iter().zip(base) {
-            let base = sides[k] as usize;
-            if !marked[base] && sides.iter().any(|&e| marked[e as usize]) {
+    let triangles = edges.triangles();
+    let mut new: Vec<usize> = (0..marked.len()).filter(|&e| marked[e]).collect();
+    while let Some(e) = new.pop() {
+        for t in triangles[e].map(|t| t as usize) {
+            let base = edges.sides[t][base[t]] as usize;
+            if !marked[base] {
                 marked[base] = true;
-                changed = true;
+                new.push(base);
             }
         }
     }

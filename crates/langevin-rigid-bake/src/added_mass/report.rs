@@ -147,6 +147,14 @@ pub enum AddedMassError {
         /// [`Options::max_triangles`](super::Options::max_triangles).
         limit: usize,
     },
+    /// The body is so small or large that its tensor is beyond the range of numbers.
+    #[error(
+        "the added mass of a body some {size:.0e} m long is beyond the range of numbers: check the unit of the mesh"
+    )]
+    Size {
+        /// Its length, to a factor of two (m).
+        size: f64,
+    },
     /// The pairs of triangles near each other take more memory than there may be.
     #[error(
         "very many long, thin triangles lie side by side, and pairs of them would take more than {:.1} GB: \
