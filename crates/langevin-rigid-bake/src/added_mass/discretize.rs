@@ -19,8 +19,9 @@ use crate::progress::Progress;
 const LONGEST: f64 = 2.2;
 /// A mesh is not bisected into more triangles than this.
 const MOST_BISECTED: usize = 20_000;
-/// Nor into more than this many times the target and twice its own: rods 1 : 4000 take the former.
+/// Nor into more than these many times the target and its own number: rods 1 : 4000 take the former.
 const MOST_TARGETS: usize = 4;
+const MOST_GIVEN: usize = 8;
 /// A triangle this many times longer than sqrt(area / triangles) is bisected in fine meshes too.
 const OVERLONG: f64 = 5.1;
 
@@ -75,7 +76,7 @@ impl Discretized {
         // The layer comes on top.
         let limit = (options.max_triangles / 2)
             .min(MOST_BISECTED)
-            .min(2 * given + MOST_TARGETS * options.target_triangles);
+            .min(MOST_GIVEN * given + MOST_TARGETS * options.target_triangles);
         let refined = bisect(vertices, triangles, longest, limit, cancel)?;
         self.stopped = (!refined.complete).then_some(longest);
         let merged = coarsen(vertices, triangles, area, cancel)?;
