@@ -9,8 +9,8 @@ use super::report::Cancel;
 /// Relative residual to reach; the tensor's error is its square.
 pub(super) const TOLERANCE: f64 = 1e-6;
 const MAX_ITERATIONS: usize = 1000;
-/// Iterations within which the residual must halve: slower, [`MAX_ITERATIONS`] would not reach the tolerance.
-const PATIENCE: usize = 50;
+/// Iterations within which the residual must halve: the solve has stalled where it does not.
+const PATIENCE: usize = 150;
 /// A right-hand side smaller than this share of the largest is zero but for rounding.
 const NEGLIGIBLE: f64 = 1e-6;
 
