@@ -20,6 +20,7 @@
 
 mod assembly;
 mod clusters;
+mod coarsen;
 mod columns;
 mod discretize;
 mod edges;
@@ -40,6 +41,7 @@ mod operator;
 mod outcome;
 mod panels;
 mod precondition;
+mod quadric;
 mod refine;
 mod report;
 mod shape;
@@ -59,7 +61,7 @@ use flow::Flow;
 /// Choices of [`added_mass`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// A mesh of fewer triangles than this is bisected until its longest edge is that of a mesh of
+    /// A mesh of fewer triangles than this is bisected, into at most four times as many and eight times its own, until its longest edge is that of a mesh of
     /// about this many. Meshes marked smooth are taken as they are.
     pub target_triangles: usize,
     /// Most triangles to solve on, edge layer included. They take some 8 kB each, and some 0.4 ms of
@@ -135,7 +137,7 @@ pub fn added_mass(
     progress: &dyn Progress,
 ) -> Result<AddedMass, AddedMassError> {
     check_size(mesh.triangles().len(), options)?;
-    let body = Discretized::new(mesh, options);
+    let body = Discretized::new(mesh, options, progress)?;
     check_size(body.triangles.len(), options)?;
     let flow = Flow::solve(&body, progress)?;
     Ok(flow.outcome(mesh, &body))

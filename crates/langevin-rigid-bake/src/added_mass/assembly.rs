@@ -224,8 +224,9 @@ mod tests {
     #[test]
     fn matrix_is_symmetric_and_annihilates_constants() {
         let panels = cube();
-        let mut pairs = NearPairs::find(&panels.panels);
-        let mut sums = near::integrate(&panels, &mut pairs, false);
+        let cancel = Cancel::new(&(), "matrix", 1);
+        let mut pairs = NearPairs::find(&panels.panels, &cancel).unwrap();
+        let mut sums = near::integrate(&panels, &mut pairs, false, &cancel).unwrap();
         let cancel = Cancel::new(&(), "", 1);
         let w = assemble(&panels, &pairs, &mut sums, &cancel).unwrap();
         let n = panels.vertices.len();

@@ -5,7 +5,7 @@ use crate::mesh::vector::{cross, dot, norm, sub, unit};
 
 /// Angle between the normals beyond which an edge is one of the body rather than of the mesh. Off
 /// the angles of regular prisms, so that rounding never decides.
-const SHARP: f64 = 31.0 * std::f64::consts::PI / 180.0;
+pub(super) const SHARP: f64 = 31.0 * std::f64::consts::PI / 180.0;
 
 /// Every undirected edge once, and the edge of each triangle's sides (side k starts at corner k).
 pub(super) struct Edges {
@@ -38,7 +38,7 @@ impl Edges {
     }
 
     /// The two triangles of each edge of a closed mesh.
-    fn triangles(&self) -> Vec<[u32; 2]> {
+    pub(super) fn triangles(&self) -> Vec<[u32; 2]> {
         // The later of the two overwrites the second entry.
         let mut of = vec![None; self.ends.len()];
         for (t, sides) in self.sides.iter().enumerate() {

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use super::AddedMassError;
 use super::edges::{Edges, Fold, folds, ordered};
 use super::panels::Vec3;
+use super::report::Cancel;
 use crate::mesh::vector::{cross, dot, norm, sub};
 
 /// Angle between normals up to which triangles count as one plane: the noise of coordinates in
@@ -14,12 +16,18 @@ const GAIN: f64 = 1e-3;
 const MAX_SWEEPS: usize = 100;
 
 /// Makes the triangulation of every flat part a Delaunay one (C. Lawson, 1977).
-pub(super) fn flip_flat_edges(vertices: &[Vec3], triangles: &mut [[u32; 3]]) {
+pub(super) fn flip_flat_edges(
+    vertices: &[Vec3],
+    triangles: &mut [[u32; 3]],
+    cancel: &Cancel,
+) -> Result<(), AddedMassError> {
     for _ in 0..MAX_SWEEPS {
+        cancel.check()?;
         if !sweep(vertices, triangles) {
-            return;
+            break;
         }
     }
+    Ok(())
 }
 
 /// Flips edges no two of which share a triangle; whether there were any.
@@ -90,12 +98,13 @@ mod tests {
         vertices.push([0.0, 0.0, -1.0]);
         let back = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4]];
         let mut triangles: Vec<[u32; 3]> = flat.into_iter().chain(back).collect();
-        flip_flat_edges(&vertices, &mut triangles);
+        let cancel = Cancel::new(&(), "mesh", 1);
+        flip_flat_edges(&vertices, &mut triangles, &cancel).unwrap();
         assert_eq!(triangles[..2], [[0, 3, 2], [1, 2, 3]]);
         assert_eq!(triangles[2..], back);
         let mut ridge: Vec<[u32; 3]> = flat.into_iter().chain(back).collect();
         vertices[2][2] = -0.01;
-        flip_flat_edges(&vertices, &mut ridge);
+        flip_flat_edges(&vertices, &mut ridge, &cancel).unwrap();
         assert_eq!(ridge[..2], flat);
     }
 }

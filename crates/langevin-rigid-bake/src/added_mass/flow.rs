@@ -43,11 +43,9 @@ impl Flow {
     ) -> Result<Flow, AddedMassError> {
         let panels = Panels::new(&body.vertices, &body.triangles);
         let cancel = Cancel::new(progress, "near pairs", 1);
-        cancel.check()?;
-        let mut pairs = NearPairs::find(&panels.panels);
+        let mut pairs = NearPairs::find(&panels.panels, &cancel)?;
         let thickness = near::thickness(&panels.panels, &pairs);
-        let mut sums = near::integrate(&panels, &mut pairs, thickness.sheet);
-        cancel.check()?;
+        let mut sums = near::integrate(&panels, &mut pairs, thickness.sheet, &cancel)?;
         let w = Form::new(hierarchical, &panels, &pairs, &mut sums, progress)?;
         let loads = load::loads(&panels, &sums, w.operator());
         let single_layer = single_layer_energy(&panels.panels, &sums);
@@ -66,6 +64,12 @@ impl Flow {
             let energy = nested_energy(&w, &system, body, &panels, &solution.x, &cancel)?;
             let q = layer::shrinkage(&panels, &pairs);
             tensor = extrapolated(&layered, &plus(&single_layer, &energy), q);
+        }
+        if !tensor.iter().flatten().all(|entry| entry.is_finite()) {
+            return Err(AddedMassError::Singular {
+                iteration: solution.iterations,
+                energy: f64::NAN,
+            });
         }
         let volume = (0..3).map(|k| single_layer[k][k]).sum();
         Ok(Flow {
@@ -95,7 +99,7 @@ impl<'a> Form<'a> {
         panels: &'a Panels,
         pairs: &'a NearPairs,
         sums: &mut [RowSums],
-        progress: &dyn Progress,
+        progress: &'a dyn Progress,
     ) -> Result<Form<'a>, AddedMassError> {
         if !hierarchical {
             let vertices = panels.vertices.len();
@@ -104,8 +108,7 @@ impl<'a> Form<'a> {
                 panels, pairs, sums, &cancel,
             )?));
         }
-        let cancel = Cancel::new(progress, "clusters", 1);
-        let w = Hierarchical::new(panels, pairs, sums, &cancel)?;
+        let w = Hierarchical::new(panels, pairs, sums, progress)?;
         Ok(Form::Hierarchical(Box::new(w)))
     }
 
@@ -135,11 +138,8 @@ struct System<'a> {
 
 impl System<'_> {
     fn solve(&self, start: Vec<Six>, cancel: &Cancel) -> Result<Solution, AddedMassError> {
-        let preconditioner = Preconditioner::new(self.w, self.vertices, self.thickness.sheet)
-            .ok_or(AddedMassError::Singular {
-                iteration: 0,
-                energy: 0.0,
-            })?;
+        let preconditioner =
+            Preconditioner::new(self.w, self.vertices, self.thickness.sheet, cancel)?;
         solve(self.w, self.loads, start, &preconditioner, cancel)
     }
 }
@@ -210,7 +210,7 @@ mod tests {
 
     fn tensor(hierarchical: bool, shape: &Shape, triangles: usize) -> [Six; 6] {
         let mesh = shape.mesh(triangles).unwrap();
-        let body = Discretized::new(&mesh, &Options::default());
+        let body = Discretized::new(&mesh, &Options::default(), &()).unwrap();
         let flow = Flow::solve_as(hierarchical, &body, &()).unwrap();
         flow.tensor
     }

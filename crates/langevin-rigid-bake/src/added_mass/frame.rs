@@ -40,6 +40,12 @@ impl Frame {
         (frame, placed)
     }
 
+    /// Whether sizes of this body to the fifth power are numbers, as the tensor has them.
+    pub(super) fn is_in_range(&self) -> bool {
+        let power = |n: i32| self.unit.powi(n) * self.inertia.min(self.volume);
+        power(5).is_normal() && power(3).is_normal()
+    }
+
     /// A point of the frame in the caller's coordinates (m).
     pub(super) fn outside(&self, v: Vec3) -> Vec3 {
         add(self.origin, scale(self.unit, v))

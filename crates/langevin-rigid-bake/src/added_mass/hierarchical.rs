@@ -18,14 +18,17 @@ use super::matrix::Six;
 use super::near::NearPairs;
 use super::operator::{Operator, SparseRow};
 use super::panels::{Panel, Panels, Vec3};
-use super::report::Cancel;
+use super::report::{Cancel, check_memory};
 use super::sums::RowSums;
 use crate::mesh::vector::{add, cross, scale, sub};
+use crate::progress::Progress;
 
 /// An expansion of each density.
 type Expansion = [Columns; TERMS];
 
 const EMPTY: Expansion = [NONE; TERMS];
+/// Most memory for the pairs of near leaves (bytes): twice what even meshes of the most triangles take.
+const MOST_BLOCKS: usize = 6_000_000_000;
 
 /// The operator.
 pub(super) struct Hierarchical<'a> {
@@ -40,6 +43,8 @@ pub(super) struct Hierarchical<'a> {
     weights: Vec<[f64; TERMS]>,
     /// Panels and corners at each vertex.
     stars: Vec<Vec<(u32, u8)>>,
+    /// Once it cancels, products are worth nothing and end soon: who asked for them asks it too.
+    progress: &'a dyn Progress,
 }
 
 #[derive(Clone, Copy)]
@@ -55,9 +60,16 @@ impl<'a> Hierarchical<'a> {
         panels: &'a Panels,
         pairs: &'a NearPairs,
         sums: &mut [RowSums],
-        cancel: &Cancel,
+        progress: &'a dyn Progress,
     ) -> Result<Hierarchical<'a>, AddedMassError> {
         let clusters = Clusters::new(&panels.panels);
+        let entries: usize = clusters
+            .near
+            .iter()
+            .map(|pair| pair.map(|c| clusters.panels(c as usize).len()))
+            .map(|[rows, columns]| rows * columns)
+            .sum();
+        check_memory(entries * size_of::<f32>(), MOST_BLOCKS)?;
         let mut neighbours = vec![Vec::new(); clusters.clusters.len()];
         for (block, &[a, b]) in clusters.near.iter().enumerate() {
             let block = block as u32;
@@ -92,9 +104,12 @@ impl<'a> Hierarchical<'a> {
             clusters,
             neighbours,
             stars,
+            progress,
         };
-        operator.integrate(sums, cancel)?;
+        let cancel = Cancel::new(progress, "clusters", 1);
+        operator.integrate(sums, &cancel)?;
         operator.add_far_sums(sums);
+        cancel.check()?;
         Ok(operator)
     }
 
@@ -219,6 +234,9 @@ impl<'a> Hierarchical<'a> {
     }
 
     fn far_sums(&self, leaf: usize, locals: &[Expansion]) -> Vec<(usize, RowSums)> {
+        if self.progress.cancelled() {
+            return Vec::new();
+        }
         let centre = self.clusters.clusters[leaf].centre;
         let members = self.clusters.panels(leaf).iter().map(|&a| {
             let panel = &self.panels.panels[a as usize];
@@ -273,6 +291,9 @@ impl<'a> Hierarchical<'a> {
         let clusters = &self.clusters.clusters;
         let from_afar = |(c, far): (usize, &Vec<u32>)| {
             let mut local = EMPTY;
+            if self.progress.cancelled() {
+                return local;
+            }
             for &other in far {
                 let other = other as usize;
                 let d = sub(clusters[c].centre, clusters[other].centre);
@@ -296,6 +317,9 @@ impl<'a> Hierarchical<'a> {
     fn potentials(&self, leaf: usize, curls: &[Columns], local: &Expansion) -> Vec<Columns> {
         let members = self.clusters.panels(leaf);
         let mut potentials = vec![NONE; members.len()];
+        if self.progress.cancelled() {
+            return potentials;
+        }
         for (potential, &a) in potentials.iter_mut().zip(members) {
             combine(&self.weights[a as usize], local, potential);
         }

@@ -116,7 +116,7 @@ fn split_quadrilateral(q: [u32; 4], vertices: &[Vec3]) -> [[u32; 3]; 2] {
 ///
 /// The potential grows like the distance to the power lambda = pi / beta off an edge of exterior
 /// angle beta; where the body is thinner than the layer is wide the edge acts as that of a sheet,
-/// lambda = 1/2.
+/// lambda = 1/2. Zero where rounding leaves no edge sharp.
 pub(super) fn shrinkage(panels: &Panels, pairs: &NearPairs) -> f64 {
     let corners: Vec<[u32; 3]> = panels.panels.iter().map(|p| p.corners).collect();
     let edges = Edges::new(&corners);
@@ -127,6 +127,9 @@ pub(super) fn shrinkage(panels: &Panels, pairs: &NearPairs) -> f64 {
     {
         weighted += sharp.length * exponent(sharp, panels, pairs);
         total += sharp.length;
+    }
+    if total == 0.0 {
+        return 0.0;
     }
     libm::pow(CUT, 2.0 * weighted / total)
 }

@@ -1,9 +1,14 @@
 //! Pairs of triangles near each other: which they are, and their exact moments.
 
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
+use super::AddedMassError;
 use super::kernel::{PairMoments, Potential, Rule, own, pair};
 use super::panels::{Panel, Panels, Vec3};
+use super::report::{Cancel, check_memory};
 use super::sums::{RowSums, rotational};
 use crate::mesh::vector::{bounding_box, dot, sub};
 
@@ -15,6 +20,12 @@ const TOUCHING2: f64 = 1.017 * 1.017;
 /// Gap of opposite panels, in longest edges, below which a body counts as a sheet.
 const SHEET_GAP: f64 = 0.3017;
 const GROUP: usize = 32;
+/// Pairs, both ways, whose moments are kept at a time.
+const BATCH: usize = 1 << 22;
+/// Most near pairs, both ways: even meshes of a million triangles have fewer.
+const MOST_PAIRS: usize = 120_000_000;
+/// What a pair takes: column and value, and the column again while pairs are found.
+const PAIR_BYTES: usize = 16;
 
 /// Near pairs of a mesh, each row sorted, the diagonal included.
 pub(super) struct NearPairs {
@@ -26,24 +37,31 @@ pub(super) struct NearPairs {
 
 impl NearPairs {
     /// Finds the pairs; a row depends on that row alone, and (a, b) is there if (b, a) is.
-    pub(super) fn find(panels: &[Panel]) -> NearPairs {
+    pub(super) fn find(panels: &[Panel], cancel: &Cancel) -> Result<NearPairs, AddedMassError> {
         let groups: Vec<Group> = panels.chunks(GROUP).map(Group::new).collect();
         let runs: Vec<Group> = panels.chunks(GROUP * GROUP).map(Group::new).collect();
+        let total = AtomicUsize::new(0);
         let rows: Vec<Vec<u32>> = panels
             .par_iter()
             .with_min_len(64)
-            .map(|a| near_row(a, panels, &groups, &runs))
-            .collect();
+            .map(|a| {
+                cancel.check()?;
+                let row = near_row(a, panels, &groups, &runs);
+                let pairs = total.fetch_add(row.len(), Ordering::Relaxed) + row.len();
+                check_memory(pairs * PAIR_BYTES, MOST_PAIRS * PAIR_BYTES)?;
+                Ok(row)
+            })
+            .collect::<Result<_, AddedMassError>>()?;
         let mut start = Vec::with_capacity(rows.len() + 1);
         start.push(0);
         for row in &rows {
             start.push(start[start.len() - 1] + row.len());
         }
-        NearPairs {
+        Ok(NearPairs {
             start,
             columns: rows.concat(),
             values: Vec::new(),
-        }
+        })
     }
 
     /// The panels near panel `a` and the integrals of 1/r with them.
@@ -52,8 +70,37 @@ impl NearPairs {
         (&self.columns[range.clone()], &self.values[range])
     }
 
+    /// How many there are, both ways.
+    pub(super) fn count(&self) -> usize {
+        self.columns.len()
+    }
+
     fn columns(&self, a: usize) -> &[u32] {
         &self.columns[self.start[a]..self.start[a + 1]]
+    }
+
+    /// Runs of rows with some [`BATCH`] pairs each.
+    fn batches(&self) -> Vec<Range<usize>> {
+        let rows = self.start.len() - 1;
+        let mut batches = Vec::new();
+        let mut first = 0;
+        while first < rows {
+            let full = self
+                .start
+                .partition_point(|&s| s < self.start[first] + BATCH);
+            let end = full.clamp(first + 1, rows);
+            batches.push(first..end);
+            first = end;
+        }
+        batches
+    }
+
+    /// A number for each pair, row by row.
+    fn split<'a>(&self, mut values: &'a mut [f64]) -> Vec<&'a mut [f64]> {
+        let lengths = self.start.windows(2).map(|ends| ends[1] - ends[0]);
+        lengths
+            .map(|length| values.split_off_mut(..length).unwrap_or_default())
+            .collect()
     }
 
     /// The near panels that come after `a`, itself first.
@@ -189,66 +236,123 @@ pub(super) fn facing<'a>(
 }
 
 /// Integrates the near pairs: their values are kept, the sums they add to each row returned.
-pub(super) fn integrate(panels: &Panels, pairs: &mut NearPairs, sheet: bool) -> Vec<RowSums> {
+pub(super) fn integrate(
+    panels: &Panels,
+    pairs: &mut NearPairs,
+    sheet: bool,
+    cancel: &Cancel,
+) -> Result<Vec<RowSums>, AddedMassError> {
     let panels = &panels.panels;
     let potentials: Vec<Potential> = panels.iter().map(Potential::new).collect();
-    let close = if sheet {
-        Rule::twenty_four()
-    } else {
-        Rule::seven()
-    };
-    let middle = Rule::three();
-    let upper_row = |a: usize| {
-        let moments = |&b: &u32| {
-            let b = b as usize;
-            let touching = ratio2(&panels[a], &panels[b]) < TOUCHING2;
-            if b == a {
-                own(&potentials[a], &close)
-            } else {
-                pair(
-                    &potentials[a],
-                    &potentials[b],
-                    if touching { &close } else { &middle },
-                )
-            }
-        };
-        pairs.upper(a).iter().map(moments).collect()
-    };
-    let upper: Vec<Vec<PairMoments>> = (0..panels.len())
-        .into_par_iter()
-        .with_min_len(16)
-        .map(upper_row)
-        .collect();
-    let rows: Vec<(Vec<f64>, RowSums)> = (0..panels.len())
-        .into_par_iter()
-        .with_min_len(64)
-        .map(|a| gather_row(a, panels, pairs, &upper))
-        .collect();
-    pairs.values = rows.iter().flat_map(|(p, _)| p.iter().copied()).collect();
-    rows.into_iter().map(|(_, sums)| sums).collect()
+    let rules = Rules::new(sheet);
+    let mut sums = vec![RowSums::default(); panels.len()];
+    let mut values = vec![0.0; pairs.columns.len()];
+    for rows in pairs.batches() {
+        let batch = Batch::new(rows, panels, &potentials, pairs, &rules, cancel)?;
+        let later = sums.par_iter_mut().zip(pairs.split(&mut values));
+        later
+            .enumerate()
+            .skip(batch.rows.start)
+            .with_min_len(64)
+            .for_each(|(a, (sums, values))| batch.add(a, panels, pairs, sums, values));
+        cancel.report(batch.rows.end as f64 / panels.len() as f64);
+    }
+    pairs.values = values;
+    Ok(sums)
 }
 
-/// The values of row `a`, and what its pairs add to the row's sums, in the order of the columns.
-fn gather_row(
-    a: usize,
-    panels: &[Panel],
-    pairs: &NearPairs,
-    upper: &[Vec<PairMoments>],
-) -> (Vec<f64>, RowSums) {
-    let mut sums = RowSums::default();
-    let values = pairs.columns(a).iter().map(|&b| {
-        let b = b as usize;
-        let moments = if b >= a {
-            upper[a][position(pairs.upper(a), b)]
+/// The outer quadrature of touching pairs and of the others.
+struct Rules {
+    close: Rule,
+    middle: Rule,
+}
+
+impl Rules {
+    fn new(sheet: bool) -> Rules {
+        let close = if sheet {
+            Rule::twenty_four()
         } else {
-            upper[b][position(pairs.upper(b), a)].swapped()
+            Rule::seven()
         };
-        let (from, to) = (&panels[a], &panels[b]);
-        sums.add_near(&moments, to.normal);
-        sums.add_energy(rotational(from.normal, to.normal, &moments.xy));
-        moments.p
-    });
-    (values.collect(), sums)
+        Rules {
+            close,
+            middle: Rule::three(),
+        }
+    }
+}
+
+/// The moments of a run of rows with the panels after each: all of them at once would take ten times the
+/// memory of the values.
+struct Batch {
+    rows: Range<usize>,
+    upper: Vec<Vec<PairMoments>>,
+}
+
+impl Batch {
+    fn new(
+        rows: Range<usize>,
+        panels: &[Panel],
+        potentials: &[Potential],
+        pairs: &NearPairs,
+        rules: &Rules,
+        cancel: &Cancel,
+    ) -> Result<Batch, AddedMassError> {
+        let moments = |a: usize, b: usize| {
+            if b == a {
+                return own(&potentials[a], &rules.close);
+            }
+            let touching = ratio2(&panels[a], &panels[b]) < TOUCHING2;
+            let rule = if touching {
+                &rules.close
+            } else {
+                &rules.middle
+            };
+            pair(&potentials[a], &potentials[b], rule)
+        };
+        let upper = rows
+            .clone()
+            .into_par_iter()
+            .with_min_len(16)
+            .map(|a| {
+                cancel.check()?;
+                let row = pairs.upper(a).iter();
+                Ok(row.map(|&b| moments(a, b as usize)).collect())
+            })
+            .collect::<Result<_, AddedMassError>>()?;
+        Ok(Batch { rows, upper })
+    }
+
+    /// Adds to row `a`, in this batch or after it, what the pairs of the batch are to it, in the order of
+    /// the columns.
+    fn add(
+        &self,
+        a: usize,
+        panels: &[Panel],
+        pairs: &NearPairs,
+        sums: &mut RowSums,
+        values: &mut [f64],
+    ) {
+        let columns = pairs.columns(a);
+        let from = position(columns, self.rows.start);
+        let to = if self.rows.contains(&a) {
+            columns.len()
+        } else {
+            position(columns, self.rows.end)
+        };
+        for (&b, value) in columns[from..to].iter().zip(&mut values[from..to]) {
+            let b = b as usize;
+            let upper =
+                |a: usize, b: usize| &self.upper[a - self.rows.start][position(pairs.upper(a), b)];
+            let moments = if b >= a {
+                *upper(a, b)
+            } else {
+                upper(b, a).swapped()
+            };
+            sums.add_near(&moments, panels[b].normal);
+            sums.add_energy(rotational(panels[a].normal, panels[b].normal, &moments.xy));
+            *value = moments.p;
+        }
+    }
 }
 
 fn position(row: &[u32], b: usize) -> usize {

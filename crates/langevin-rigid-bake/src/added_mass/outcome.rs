@@ -3,7 +3,7 @@
 use super::discretize::Discretized;
 use super::flow::Flow;
 use super::matrix::Six;
-use super::panels::{Panel, Panels};
+use super::panels::{Panel, Panels, Vec3};
 use super::report::{MeshQuality, Warning};
 use super::solver::TOLERANCE;
 use super::{AddedMass, Surface};
@@ -68,13 +68,19 @@ impl Flow {
     }
 
     fn surface(&self, mesh: &TriMesh, body: &Discretized) -> Surface {
-        let unit = body.frame.unit;
-        let given = mesh.vertices().iter().copied();
-        let added = body.vertices[mesh.vertices().len()..].iter();
+        let (given, unit) = (mesh.vertices(), body.frame.unit);
+        let solved = potentials(&self.panels, &self.solution.x, unit);
+        let numbers = body.numbers(given.len());
+        let added = numbers.iter().zip(&body.vertices).zip(&solved);
+        let added = added.filter(|((number, _), _)| **number as usize >= given.len());
+        let (places, values): (Vec<Vec3>, Vec<Six>) = added
+            .map(|((_, &place), value)| (body.frame.outside(place), *value))
+            .unzip();
+        let triangles = body.triangles.iter();
         Surface {
-            vertices: given.chain(added.map(|&v| body.frame.outside(v))).collect(),
-            triangles: body.triangles.clone(),
-            potentials: potentials(&self.panels, &self.solution.x, unit),
+            vertices: given.iter().copied().chain(places).collect(),
+            triangles: triangles.map(|t| t.map(|v| numbers[v as usize])).collect(),
+            potentials: [body.at_given(given.len(), &solved), values].concat(),
         }
     }
 }

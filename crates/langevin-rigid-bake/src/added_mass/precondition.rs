@@ -6,9 +6,11 @@
 
 use rayon::prelude::*;
 
+use super::AddedMassError;
 use super::matrix::Six;
 use super::operator::{Operator, SparseRow};
 use super::panels::Vec3;
+use super::report::Cancel;
 use crate::mesh::vector::{bounding_box, dot, sub};
 
 /// Neighbours in the factorized sparse approximate inverse.
@@ -19,6 +21,11 @@ const LARGE: usize = 3000;
 const COARSENING: usize = 16;
 /// Vertices that a search for neighbours passes over together.
 const GROUP: usize = 32;
+/// What W is where it has no such inverse.
+const NOT_POSITIVE: AddedMassError = AddedMassError::Singular {
+    iteration: 0,
+    energy: 0.0,
+};
 
 /// An approximate inverse of W.
 pub(super) enum Preconditioner {
@@ -32,21 +39,26 @@ pub(super) enum Preconditioner {
 }
 
 impl Preconditioner {
-    /// The one for a body with these vertices; `None` where W is not positive.
-    pub(super) fn new(w: &dyn Operator, vertices: &[Vec3], sheet: bool) -> Option<Preconditioner> {
+    /// The one for a body with these vertices.
+    pub(super) fn new(
+        w: &dyn Operator,
+        vertices: &[Vec3],
+        sheet: bool,
+        cancel: &Cancel,
+    ) -> Result<Preconditioner, AddedMassError> {
         let diagonal = w.diagonal();
         if !diagonal.iter().all(|&d| d > 0.0) {
-            return None;
+            return Err(NOT_POSITIVE);
         }
         let simple = !sheet && vertices.len() < LARGE;
         if simple || vertices.len() < 4 * NEIGHBOURS {
-            return Some(Preconditioner::Diagonal(
+            return Ok(Preconditioner::Diagonal(
                 diagonal.iter().map(|d| 1.0 / d).collect(),
             ));
         }
-        Some(Preconditioner::TwoLevel {
-            factor: SparseFactor::new(w, vertices)?,
-            coarse: Coarse::new(w, vertices)?,
+        Ok(Preconditioner::TwoLevel {
+            factor: SparseFactor::new(w, vertices, cancel)?,
+            coarse: Coarse::new(w, vertices, cancel)?,
         })
     }
 
@@ -73,15 +85,22 @@ pub(super) struct SparseFactor {
 }
 
 impl SparseFactor {
-    fn new(w: &dyn Operator, vertices: &[Vec3]) -> Option<SparseFactor> {
+    fn new(
+        w: &dyn Operator,
+        vertices: &[Vec3],
+        cancel: &Cancel,
+    ) -> Result<SparseFactor, AddedMassError> {
         let groups: Vec<Group> = vertices.chunks(GROUP).map(Group::new).collect();
         let rows: Vec<SparseRow> = (0..vertices.len())
             .into_par_iter()
             .with_min_len(16)
-            .map(|i| factor_row(w, vertices, &groups, i))
-            .collect::<Option<_>>()?;
+            .map(|i| {
+                cancel.check()?;
+                factor_row(w, vertices, &groups, i).ok_or(NOT_POSITIVE)
+            })
+            .collect::<Result<_, _>>()?;
         let columns = transposed(&rows, vertices.len());
-        Some(SparseFactor { rows, columns })
+        Ok(SparseFactor { rows, columns })
     }
 
     fn apply(&self, r: &[Six]) -> Vec<Six> {
@@ -199,7 +218,7 @@ pub(super) struct Coarse {
 }
 
 impl Coarse {
-    fn new(w: &dyn Operator, vertices: &[Vec3]) -> Option<Coarse> {
+    fn new(w: &dyn Operator, vertices: &[Vec3], cancel: &Cancel) -> Result<Coarse, AddedMassError> {
         let most = w.most_coarse();
         let seeds = spread_out(vertices, (vertices.len() / COARSENING).min(most));
         let interpolation: Vec<SparseRow> = vertices
@@ -209,17 +228,19 @@ impl Coarse {
             .collect();
         let members = transposed(&interpolation, seeds.len());
         let m = seeds.len();
+        cancel.check()?;
         let small = w.galerkin(&members);
+        cancel.check()?;
         let mut a: Vec<f64> = (0..m * m)
             .map(|k| 0.5 * (small[k] + small[k % m * m + k / m]))
             .collect();
         // Constants are among the coarse functions and have no energy: give them the mean one.
         let mean = (0..m).map(|i| a[i * m + i]).sum::<f64>() / (m * m) as f64;
         a.iter_mut().for_each(|entry| *entry += mean);
-        Some(Coarse {
+        Ok(Coarse {
             interpolation,
             members,
-            factor: Cholesky::new(a, m)?,
+            factor: Cholesky::new(a, m).ok_or(NOT_POSITIVE)?,
         })
     }
 

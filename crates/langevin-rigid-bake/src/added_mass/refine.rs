@@ -1,8 +1,10 @@
 //! Bisection of triangles that are too long for linear potentials.
 
+use super::AddedMassError;
 use super::edges::{Edges, Fold, folds};
 use super::flip::{FLAT, flip_flat_edges};
 use super::panels::Vec3;
+use super::report::Cancel;
 use crate::mesh::vector::{add, dot, scale, sub};
 
 /// How bisection ended.
@@ -24,18 +26,19 @@ pub(super) fn bisect(
     triangles: &mut Vec<[u32; 3]>,
     longest: f64,
     limit: usize,
-) -> Refined {
+    cancel: &Cancel,
+) -> Result<Refined, AddedMassError> {
     if Round::new(vertices, triangles, longest).added == 0 {
-        return Refined { complete: true };
+        return Ok(Refined { complete: true });
     }
     loop {
-        flip_flat_edges(vertices, triangles);
+        flip_flat_edges(vertices, triangles, cancel)?;
         let round = Round::new(vertices, triangles, longest);
         if round.added == 0 {
-            return Refined { complete: true };
+            return Ok(Refined { complete: true });
         }
         if triangles.len() + round.added > limit {
-            return Refined { complete: false };
+            return Ok(Refined { complete: false });
         }
         *triangles = round.split(vertices, triangles);
     }
@@ -134,14 +137,14 @@ fn base_side(sides: &[u32; 3], lengths: &[f32], flat: &[bool]) -> usize {
 
 /// A triangle with any marked side is cut across its base first.
 fn close(edges: &Edges, base: &[usize], marked: &mut [bool]) {
-    let mut changed = true;
-    while changed {
-        changed = false;
-        for (sides, &k) in edges.sides.iter().zip(base) {
-            let base = sides[k] as usize;
-            if !marked[base] && sides.iter().any(|&e| marked[e as usize]) {
+    let triangles = edges.triangles();
+    let mut new: Vec<usize> = (0..marked.len()).filter(|&e| marked[e]).collect();
+    while let Some(e) = new.pop() {
+        for t in triangles[e].map(|t| t as usize) {
+            let base = edges.sides[t][base[t]] as usize;
+            if !marked[base] {
                 marked[base] = true;
-                changed = true;
+                new.push(base);
             }
         }
     }
@@ -186,7 +189,9 @@ mod tests {
     fn bisection_is_conforming_and_keeps_the_surface() {
         let (mut vertices, mut triangles) = tetrahedron();
         let area = surface_area(&vertices, &triangles);
-        assert!(bisect(&mut vertices, &mut triangles, 0.31, 100_000).complete);
+        let cancel = Cancel::new(&(), "mesh", 1);
+        let refined = bisect(&mut vertices, &mut triangles, 0.31, 100_000, &cancel);
+        assert!(refined.unwrap().complete);
         assert!((surface_area(&vertices, &triangles) - area).abs() < 1e-12 * area);
         let edges = Edges::new(&triangles);
         // Euler's relation for a closed surface of genus zero.
@@ -201,7 +206,9 @@ mod tests {
     #[test]
     fn bisection_stops_at_the_limit() {
         let (mut vertices, mut triangles) = tetrahedron();
-        assert!(!bisect(&mut vertices, &mut triangles, 0.01, 500).complete);
+        let cancel = Cancel::new(&(), "mesh", 1);
+        let refined = bisect(&mut vertices, &mut triangles, 0.01, 500, &cancel);
+        assert!(!refined.unwrap().complete);
         assert!(triangles.len() <= 500 && triangles.len() > 100);
     }
 }

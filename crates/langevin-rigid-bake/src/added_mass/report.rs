@@ -20,7 +20,8 @@ pub struct MeshQuality {
     /// Smallest gap between panels that face each other across the body or a slot in it, over their
     /// longest edge; infinite where no two do within an edge length.
     pub thickness_ratio: f64,
-    /// |sum n·n' / (4 pi r) - V| / V over all pairs of panels, zero with exact integrals.
+    /// |sum n·n' / (4 pi r) - V| / V over all pairs of panels, V that of the mesh given: zero with exact
+    /// integrals, and no needles merged.
     pub quadrature_error: f64,
     /// Change of the tensor by the extrapolation from the edge layer, relative like
     /// [`AddedMass::error_estimate`](super::AddedMass::error_estimate); zero without sharp edges.
@@ -136,7 +137,7 @@ pub enum AddedMassError {
     /// More triangles than the options allow.
     #[error(
         "{triangles} triangles (edge layer included) would take some {:.1} GB, {limit} are allowed: \
-         simplify the mesh to 20 000 triangles keeping its volume, or raise `max_triangles` of the \
+         simplify the mesh keeping its volume (`--proxy 20000` of the command), or raise `max_triangles` of the \
          options in a program of your own",
         8e-6 * *triangles as f64
     )]
@@ -144,6 +145,24 @@ pub enum AddedMassError {
         /// Triangles that would be solved on.
         triangles: usize,
         /// [`Options::max_triangles`](super::Options::max_triangles).
+        limit: usize,
+    },
+    /// The body is so small or large that its tensor is beyond the range of numbers.
+    #[error(
+        "the added mass of a body some {size:.0e} m long is beyond the range of numbers: check the unit of the mesh"
+    )]
+    Size {
+        /// Its length, to a factor of two (m).
+        size: f64,
+    },
+    /// The pairs of triangles near each other take more memory than there may be.
+    #[error(
+        "very many long, thin triangles lie side by side, and pairs of them would take more than {:.1} GB: \
+         remesh with more even triangles, or simplify the mesh (`--proxy 20000` of the command)",
+        1e-9 * *limit as f64
+    )]
+    TooCrowded {
+        /// The memory they may take (bytes).
         limit: usize,
     },
     /// The matrix is not positive: the surface is not that of a body.
@@ -157,6 +176,14 @@ pub enum AddedMassError {
         /// The energy found.
         energy: f64,
     },
+}
+
+pub(super) fn check_memory(bytes: usize, limit: usize) -> Result<(), AddedMassError> {
+    if bytes > limit {
+        Err(AddedMassError::TooCrowded { limit })
+    } else {
+        Ok(())
+    }
 }
 
 /// Counts steps of a stage and passes a wish to stop on.

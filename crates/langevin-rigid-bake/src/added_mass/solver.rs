@@ -9,6 +9,8 @@ use super::report::Cancel;
 /// Relative residual to reach; the tensor's error is its square.
 pub(super) const TOLERANCE: f64 = 1e-6;
 const MAX_ITERATIONS: usize = 1000;
+/// Iterations within which the residual must halve: the solve has stalled where it does not.
+const PATIENCE: usize = 150;
 /// A right-hand side smaller than this share of the largest is zero but for rounding.
 const NEGLIGIBLE: f64 = 1e-6;
 
@@ -53,9 +55,15 @@ pub(super) fn solve(
     let mut direction = vec![[0.0; 6]; f.len()];
     let mut previous = [f64::INFINITY; 6];
     let mut iterations = 0;
+    let mut halved = (first, 0);
     while relative(&residual, &scale) > TOLERANCE && iterations < MAX_ITERATIONS {
         cancel.check()?;
         let worst = relative(&residual, &scale);
+        if worst < 0.5 * halved.0 {
+            halved = (worst, iterations);
+        } else if iterations - halved.1 > PATIENCE {
+            break;
+        }
         cancel.report(libm::log(first / worst) / libm::log(first / TOLERANCE));
         let active: [bool; 6] = std::array::from_fn(|c| norm(&residual, c) > TOLERANCE * scale[c]);
         let z = preconditioner.apply(&residual);
