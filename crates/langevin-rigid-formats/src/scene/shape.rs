@@ -97,7 +97,7 @@ fn from_file(
         return Err(doc.error(triangles.span(), message));
     }
     let Some(unit) = &body.unit else {
-        let message = "a mesh file needs its `unit` of length: \"m\", \"cm\" or \"mm\"";
+        let message = "a mesh file needs its `unit` of length: \"m\", \"cm\", \"mm\", \"um\", \"in\" or \"ft\"";
         return Err(doc.error(mesh.span(), message));
     };
     let thickness = |t| doc.positive(t, "`thickness` (m)");
