@@ -25,6 +25,7 @@ pub use edges::{Edge, open_edge_count};
 pub use error::{EdgeSite, MeshError};
 pub use proxy::ProxyError;
 pub use repair::{FILL, Options, Repaired, SMALL_HOLE, Step, Unrepaired, WELD, WIDE_HOLE, repair};
+pub use seams::{ClosedSeams, close_seams};
 pub use survey::{Component, Faults, Seams, Survey, survey};
 pub use weld::weld;
 

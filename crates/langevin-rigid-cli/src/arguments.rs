@@ -272,7 +272,7 @@ Reads OBJ, STL, PLY, glTF and GLB.")]
 pub(crate) struct AddedMass {
     /// The mesh file.
     pub(crate) mesh: PathBuf,
-    /// Unit of its coordinates [default: that of its format, or m].
+    /// Unit of its coordinates (m, cm, mm, um, in, ft) [default: that of its format, or m].
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<LengthUnit>,
     /// Thicken an open sheet to this thickness (m).
@@ -309,7 +309,7 @@ Exit codes:
 pub(crate) struct Check {
     /// The mesh file.
     pub(crate) mesh: PathBuf,
-    /// Unit of its coordinates [default: that of its format, or m].
+    /// Unit of its coordinates (m, cm, mm, um, in, ft) [default: that of its format, or m].
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<LengthUnit>,
     /// Print the report as JSON.
@@ -334,7 +334,7 @@ pub(crate) struct Repair {
     /// File to write, .obj (all digits) or .stl (single precision).
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
-    /// Unit of the mesh's coordinates [default: that of its format, or m].
+    /// Unit of the mesh's coordinates (m, cm, mm, um, in, ft) [default: that of its format, or m].
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<LengthUnit>,
     /// Weld vertices of open edges this close (m) [default: 1e-6 of the diagonal of the mesh's box].

@@ -237,8 +237,11 @@ fn what_cannot_be_written_or_read_is_told() {
         let (code, _, err) = place.run(command);
         assert!(code == 1 && err.contains("nowhere.obj"), "{err}");
     }
-    place.write("nan.obj", &CUBE.replace("v 1 1 1", "v 1 nan 1e300"));
-    let (code, report) = place.json(&["check", "nan.obj"]);
+    place.write("nan.obj", &CUBE.replace("v 1 1 1", "v 1 nan 1"));
+    let (code, _, err) = place.run(&["check", "nan.obj"]);
+    assert!(code == 1 && err.contains("`nan` is not a number"), "{err}");
+    place.write("far.obj", &CUBE.replace("v 1 1 1", "v 1 1e300 1"));
+    let (code, report) = place.json(&["check", "far.obj"]);
     assert_eq!(code, 1);
     assert!(report["unusable"].as_u64().unwrap() >= 3);
     assert_eq!(

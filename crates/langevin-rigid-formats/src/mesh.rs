@@ -1,24 +1,31 @@
 //! Triangle meshes from files: OBJ, STL, PLY, glTF and GLB.
 //!
 //! [`read_mesh`] gives the triangles as they are in the file, in metres; [`RawMesh::body`] and
-//! [`RawMesh::sheet`] make a checked body of them. Polygons are split into fans from their first
-//! corner, which is right for convex ones only: triangulate others before exporting. Vertices that
+//! [`RawMesh::sheet`] make a checked body of them. Polygons of any shape become triangles. Vertices that
 //! a format stores once per facet or seam are welded where their positions are equal to the last
-//! bit: always for STL and glTF, for OBJ and PLY where the surface is open otherwise.
+//! bit: always for STL and glTF, for OBJ and PLY where the surface is open otherwise; where it is open
+//! still, within a millionth of its size if that closes edges. What a reader tolerated it says in
+//! [`RawMesh::notices`].
 //!
 //! The readers take nothing in a file at its word: a damaged or hostile file gives a
 //! [`ParseError`], never a panic, and no more memory than the file's own length calls for.
 
 mod error;
+mod foreign;
 mod gltf;
 mod obj;
 mod ply;
+mod polygon;
 mod stl;
+mod text;
 mod unit;
 
 use std::path::Path;
 
-use langevin_rigid_bake::mesh::{MeshError, TriMesh, open_edge_count, weld};
+use langevin_rigid_bake::mesh::{MeshError, TriMesh, close_seams, open_edge_count, weld};
+
+use foreign::Foreign;
+use polygon::fan;
 
 pub use error::{ParseError, Place, ReadError};
 pub use obj::write_obj;
@@ -73,6 +80,46 @@ impl RawMesh {
         }
     }
 
+    /// With the seams closed that rounding left open.
+    fn seamless(self, unit: LengthUnit) -> RawMesh {
+        if open_edge_count(&self.triangles) == 0 {
+            return self;
+        }
+        let Some(closed) = close_seams(&self.vertices, &self.triangles) else {
+            return self;
+        };
+        let mut mesh = RawMesh {
+            vertices: closed.vertices,
+            triangles: closed.triangles,
+            notices: self.notices,
+        };
+        let distance = unit.to_metres(closed.distance);
+        mesh.note(format!(
+            "welded {} vertices within {distance:.1e} m of another to close open edges",
+            closed.welded
+        ));
+        mesh
+    }
+
+    /// Drops vertices without a triangle.
+    fn drop_unused(&mut self) {
+        let mut number = vec![None; self.vertices.len()];
+        for v in self.triangles.as_flattened() {
+            number[*v as usize] = Some(0);
+        }
+        let used = number.iter_mut().flatten();
+        used.zip(0..).for_each(|(n, new)| *n = new);
+        let mut is_used = number.iter().map(Option::is_some);
+        self.vertices.retain(|_| is_used.next() == Some(true));
+        for v in self.triangles.as_flattened_mut() {
+            *v = number[*v as usize].unwrap_or(*v);
+        }
+    }
+
+    fn note(&mut self, notice: impl Into<String>) {
+        self.notices.push(notice.into());
+    }
+
     fn in_metres(mut self, unit: LengthUnit) -> RawMesh {
         for x in self.vertices.as_flattened_mut() {
             *x = unit.to_metres(*x);
@@ -99,19 +146,23 @@ pub enum MeshFormat {
 impl MeshFormat {
     /// The format of some bytes by what only it has, whatever the file is called.
     pub fn of_content(bytes: &[u8]) -> Option<MeshFormat> {
-        let text = bytes.trim_ascii_start();
-        if bytes.starts_with(b"glTF") {
+        if stl::is_binary(bytes) {
+            return Some(MeshFormat::Stl);
+        }
+        let utf16 = text::is_utf16(bytes).then(|| text::decode(bytes));
+        let plain = match &utf16 {
+            Some(file) => file.text.as_bytes(),
+            None => text::without_mark(bytes),
+        };
+        if plain.starts_with(b"glTF") {
             Some(MeshFormat::Glb)
-        } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
+        } else if ply::is_ply(plain) {
             Some(MeshFormat::Ply)
-        } else if stl::has_binary_length(bytes) || stl::is_text(bytes) {
+        } else if stl::is_text(plain) {
             Some(MeshFormat::Stl)
-        } else if text.starts_with(b"{") {
+        } else if plain.trim_ascii_start().starts_with(b"{") {
             Some(MeshFormat::Gltf)
-        } else if bytes
-            .split(|&b| b == b'\n')
-            .any(|line| line.trim_ascii_start().starts_with(b"v "))
-        {
+        } else if obj::has_vertices(plain) {
             Some(MeshFormat::Obj)
         } else {
             None
@@ -158,9 +209,23 @@ impl MeshFormat {
 /// A [`ReadError`] where the file cannot be read, is of no known format, or a [`ParseError`] says
 /// what is wrong inside it.
 pub fn read_mesh(path: &Path, unit: Option<LengthUnit>) -> Result<RawMesh, ReadError> {
+    if path.is_dir() {
+        return Err(ReadError::Folder { path: path.into() });
+    }
     let bytes = std::fs::read(path).map_err(|source| ReadError::of_file(path, source))?;
+    let refused = |foreign: Foreign| ReadError::Foreign {
+        path: path.into(),
+        what: foreign.what,
+        remedy: foreign.remedy,
+    };
+    if let Some(foreign) = Foreign::of_content(&bytes) {
+        return Err(refused(foreign));
+    }
     let format = MeshFormat::of_content(&bytes).or_else(|| MeshFormat::of_extension(path));
-    let format = format.ok_or_else(|| ReadError::UnknownFormat { path: path.into() })?;
+    let format = format.ok_or_else(|| match Foreign::of_extension(path) {
+        Some(foreign) => refused(foreign),
+        None => ReadError::UnknownFormat { path: path.into() },
+    })?;
     // The parent of a bare file name is the empty path, which joins as it should.
     parse_mesh(&bytes, format, unit, path.parent()).map_err(|error| ReadError::Parse {
         path: path.into(),
@@ -209,13 +274,7 @@ pub fn parse_mesh(
         let notice = format!("its lengths were taken to be in {unit}, its format says {stated}");
         mesh.notices.push(notice);
     }
-    Ok(mesh.in_metres(unit))
-}
-
-/// Triangles of a polygon as a fan from its first corner.
-fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
-    let rim = corners.get(1..).unwrap_or_default();
-    rim.windows(2).map(|pair| [corners[0], pair[0], pair[1]])
+    Ok(mesh.seamless(unit).in_metres(unit))
 }
 
 #[cfg(test)]

@@ -94,6 +94,22 @@ pub enum ReadError {
         /// The system's reason.
         source: io::Error,
     },
+    /// The path is that of a folder.
+    #[error("`{}` is a folder: name the mesh file in it", path.display())]
+    Folder {
+        /// Its path.
+        path: PathBuf,
+    },
+    /// The file is of a format that is not read.
+    #[error("`{}` is {what}, which is not read: {remedy}", path.display())]
+    Foreign {
+        /// Its path.
+        path: PathBuf,
+        /// What it is.
+        what: &'static str,
+        /// How to come by a mesh that is read.
+        remedy: &'static str,
+    },
     /// Neither the content nor the extension is that of a known format.
     #[error("`{}` is of no known mesh format: known are .obj, .stl, .ply, .gltf and .glb", path.display())]
     UnknownFormat {

@@ -2,6 +2,8 @@ use super::*;
 use langevin_rigid_bake::shapes::Shape;
 use proptest::prelude::*;
 
+mod mangled;
+
 const ALL: [MeshFormat; 5] = [
     MeshFormat::Obj,
     MeshFormat::Stl,
@@ -283,7 +285,14 @@ fn huge_counts_are_not_believed() {
 #[test]
 fn units_scale_to_metres() {
     let body = Shape::Box { size: [1.0; 3] }.mesh(12).unwrap();
-    for (symbol, volume) in [("m", 1.0), ("cm", 1e-6), ("mm", 1e-9)] {
+    for (symbol, volume) in [
+        ("m", 1.0),
+        ("cm", 1e-6),
+        ("mm", 1e-9),
+        ("um", 1e-18),
+        ("in", 0.0254 * 0.0254 * 0.0254),
+        ("ft", 0.3048 * 0.3048 * 0.3048),
+    ] {
         let unit = symbol.parse().unwrap();
         let read = parse_mesh(&obj(&body), MeshFormat::Obj, Some(unit), None)
             .unwrap()
@@ -291,10 +300,10 @@ fn units_scale_to_metres() {
             .unwrap();
         assert!((read.volume() / volume - 1.0).abs() < 1e-12);
     }
-    let message = "ft".parse::<LengthUnit>().unwrap_err().to_string();
+    let message = "yd".parse::<LengthUnit>().unwrap_err().to_string();
     assert_eq!(
         message,
-        "unknown unit of length `ft`: give `m`, `cm` or `mm`"
+        "unknown unit of length `yd`: give `m`, `cm`, `mm`, `um`, `in` or `ft`"
     );
 }
 
@@ -398,7 +407,7 @@ fn text_stl_errors_name_the_line() {
         ("solid\nvertex 0 0 x\n", "line 2: `x` is not a number"),
         (
             "solid\nfacet normal 0 0 1\n",
-            "line 2: the file ends before `endsolid`",
+            "line 2: the file ends within a facet",
         ),
         (
             "solid\nbox 1 2 3\nendsolid",
@@ -418,16 +427,43 @@ fn ply_errors_name_the_place() {
     let start = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
     for (text, expected) in [
         (format!("{start}0 0\nx\n"), "line 11: `x` is not a number"),
-        (format!("{start}0 0 0\n3 0 0 -1\n"), "a vertex number is negative"),
-        (format!("{start}0 0 0\n3 0 0 1\n"), "a face has vertex 1, there are 1"),
-        (format!("{start}0 0 0\n-3 0 0 0\n"), "a list cannot have -3 entries"),
-        ("ply\nformat ascii 1.0\nelement vertex many\n".to_owned(), "line 3: `many` is not a number"),
-        ("ply\nformat utf8 1.0\n".to_owned(), "line 2: there is no PLY format `utf8`"),
-        ("ply\nproperty float x\n".to_owned(), "line 2: a property without an element"),
-        ("ply\nend_header\n".to_owned(), "line 2: the format line is missing"),
-        ("ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n".to_owned(), "triangle strips"),
+        (
+            format!("{start}0 0 0\n3 0 0 -1\n"),
+            "a vertex number is negative",
+        ),
+        (
+            format!("{start}0 0 0\n3 0 0 1\n"),
+            "a face has vertex 1, there are 1",
+        ),
+        (
+            format!("{start}0 0 0\n-3 0 0 0\n"),
+            "a list cannot have -3 entries",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement vertex many\n".to_owned(),
+            "line 3: `many` is not a number",
+        ),
+        (
+            "ply\nformat utf8 1.0\n".to_owned(),
+            "line 2: there is no PLY format `utf8`",
+        ),
+        (
+            "ply\nproperty float x\n".to_owned(),
+            "line 2: a property without an element",
+        ),
+        (
+            "ply\nend_header\n".to_owned(),
+            "line 2: the format line is missing",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int strip\nend_header\n"
+                .to_owned(),
+            "the element `tristrips` has no property vertex_indices",
+        ),
     ] {
-        let error = parse(text.as_bytes(), MeshFormat::Ply).unwrap_err().to_string();
+        let error = parse(text.as_bytes(), MeshFormat::Ply)
+            .unwrap_err()
+            .to_string();
         assert!(error.contains(expected), "{error}");
     }
 }
@@ -587,9 +623,17 @@ fn unreadable_files_are_told_apart() {
     let folder = Folder::new("mesh-errors");
     let read = |name: &str| read_mesh(&folder.0.join(name), Some(LengthUnit::M)).unwrap_err();
     assert!(matches!(read("missing.obj"), ReadError::NotFound { .. }));
-    assert!(matches!(read("."), ReadError::Unreadable { .. }));
-    std::fs::write(folder.0.join("photo.png"), b"\x89PNG\r\n").unwrap();
-    let error = read("photo.png");
+    assert!(matches!(read("."), ReadError::Folder { .. }));
+    std::fs::write(folder.0.join("hull.obj"), b"\x89PNG\r\n").unwrap();
+    std::fs::write(folder.0.join("hull.blend"), b"\x00\x01").unwrap();
+    assert!(read("hull.obj").to_string().contains("is a picture"));
+    assert!(
+        read("hull.blend")
+            .to_string()
+            .contains("is a Blender scene")
+    );
+    std::fs::write(folder.0.join("notes.txt"), b"a hull").unwrap();
+    let error = read("notes.txt");
     assert!(matches!(error, ReadError::UnknownFormat { .. }));
     assert!(
         error

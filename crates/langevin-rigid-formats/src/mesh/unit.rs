@@ -2,14 +2,15 @@
 
 use std::str::FromStr;
 
-/// The unit of length of a mesh file, by its symbol "m", "cm" or "mm".
+/// The unit of length of a mesh file, by its symbol "m", "cm", "mm", "um", "in" or "ft"; "inch" is "in".
 ///
 /// ```
 /// use langevin_rigid_formats::mesh::LengthUnit;
 ///
 /// let unit: LengthUnit = "mm".parse()?;
 /// assert_eq!(unit.to_metres(8.3), 0.0083);
-/// assert!("inch".parse::<LengthUnit>().is_err());
+/// assert_eq!("inch".parse::<LengthUnit>()?.to_metres(1.0), 0.0254);
+/// assert!("parsec".parse::<LengthUnit>().is_err());
 /// # Ok::<(), langevin_rigid_formats::mesh::UnknownUnit>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -21,16 +22,26 @@ pub enum LengthUnit {
     Cm,
     /// Millimetres.
     Mm,
+    /// Micrometres.
+    Um,
+    /// International inches, 25.4 mm.
+    In,
+    /// International feet, 12 inches.
+    Ft,
 }
 
 impl LengthUnit {
     /// A length in this unit, in metres.
     pub fn to_metres(self, length: f64) -> f64 {
-        // Dividing rounds once; a hundredth has been rounded before.
+        // Dividing rounds once; a hundredth has been rounded before. So do 127 and 381 times a number in
+        // single precision, which is exact.
         match self {
             LengthUnit::M => length,
             LengthUnit::Cm => length / 100.0,
             LengthUnit::Mm => length / 1000.0,
+            LengthUnit::Um => length / 1e6,
+            LengthUnit::In => length * 127.0 / 5000.0,
+            LengthUnit::Ft => length * 381.0 / 1250.0,
         }
     }
 }
@@ -43,6 +54,9 @@ impl FromStr for LengthUnit {
             "m" => Ok(LengthUnit::M),
             "cm" => Ok(LengthUnit::Cm),
             "mm" => Ok(LengthUnit::Mm),
+            "um" => Ok(LengthUnit::Um),
+            "in" | "inch" => Ok(LengthUnit::In),
+            "ft" => Ok(LengthUnit::Ft),
             _ => Err(UnknownUnit {
                 symbol: symbol.to_owned(),
             }),
@@ -56,13 +70,16 @@ impl std::fmt::Display for LengthUnit {
             LengthUnit::M => "m",
             LengthUnit::Cm => "cm",
             LengthUnit::Mm => "mm",
+            LengthUnit::Um => "um",
+            LengthUnit::In => "in",
+            LengthUnit::Ft => "ft",
         })
     }
 }
 
 /// The symbol is not that of a unit of length known here.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("unknown unit of length `{symbol}`: give `m`, `cm` or `mm`")]
+#[error("unknown unit of length `{symbol}`: give `m`, `cm`, `mm`, `um`, `in` or `ft`")]
 pub struct UnknownUnit {
     /// What was given.
     pub symbol: String,

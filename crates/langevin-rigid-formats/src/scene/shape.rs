@@ -98,7 +98,7 @@ fn from_file(
     }
     let format = MeshFormat::of_extension(mesh.get_ref().as_ref());
     if body.unit.is_none() && format.is_some_and(|format| format.unit().is_none()) {
-        let message = "a mesh file needs its `unit` of length: \"m\", \"cm\" or \"mm\"";
+        let message = "a mesh file needs its `unit` of length: \"m\", \"cm\", \"mm\", \"um\", \"in\" or \"ft\"";
         return Err(doc.error(mesh.span(), message));
     }
     let unit = body.unit.as_ref().map(|unit| doc.name::<LengthUnit>(unit));

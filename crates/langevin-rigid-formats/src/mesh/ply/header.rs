@@ -19,6 +19,8 @@ pub(super) enum Scalar {
     U16,
     I32,
     U32,
+    I64,
+    U64,
     F32,
     F64,
 }
@@ -56,26 +58,36 @@ impl Header {
     pub(super) fn parse(bytes: &[u8]) -> Result<(Header, usize), ParseError> {
         let (mut encoding, mut elements) = (None, Vec::new());
         let mut at = 0;
-        for (index, line) in bytes.split_inclusive(|&b| b == b'\n').enumerate() {
+        let mut returns = None;
+        for number in 1.. {
+            if at == bytes.len() {
+                break;
+            }
+            let (line, ending) = line(&bytes[at..]);
             at += line.len();
-            let number = index + 1;
+            // After a header whose lines end in CR, an LF is the first byte of the body.
+            at += if returns == Some(true) {
+                ending.len().min(1)
+            } else {
+                ending.len()
+            };
+            returns = returns.or(Some(ending == b"\r"));
             let bad = |reason: String| ParseError::at(Place::Line(number), reason);
-            let line = String::from_utf8_lossy(line);
+            let line = String::from_utf8_lossy(line).to_ascii_lowercase();
             let words: Vec<&str> = line.split_ascii_whitespace().collect();
             match words.as_slice() {
-                ["ply"] if index == 0 => {}
-                _ if index == 0 => return Err(bad("a PLY file begins with `ply`".to_owned())),
+                ["ply"] if number == 1 => {}
+                _ if number == 1 => return Err(bad("a PLY file begins with `ply`".to_owned())),
                 ["end_header"] => {
                     let encoding =
                         encoding.ok_or_else(|| bad("the format line is missing".to_owned()))?;
-                    return Ok((
-                        Header {
-                            encoding,
-                            elements,
-                            lines: number,
-                        },
-                        at,
-                    ));
+                    let lines = number;
+                    let header = Header {
+                        encoding,
+                        elements,
+                        lines,
+                    };
+                    return Ok((header, at));
                 }
                 ["comment" | "obj_info", ..] | [] => {}
                 ["format", name, ..] => encoding = Some(format(name).map_err(bad)?),
@@ -87,6 +99,19 @@ impl Header {
             "the file ends before `end_header`",
         ))
     }
+}
+
+/// The first line and its end, which is LF, CR LF or CR.
+fn line(bytes: &[u8]) -> (&[u8], &[u8]) {
+    let is_end = |b: &u8| *b == b'\n' || *b == b'\r';
+    let length = bytes.iter().position(is_end).unwrap_or(bytes.len());
+    let (line, rest) = bytes.split_at(length);
+    let ending = if rest.starts_with(b"\r\n") {
+        2
+    } else {
+        rest.len().min(1)
+    };
+    (line, &rest[..ending])
 }
 
 fn format(name: &str) -> Result<Encoding, String> {
@@ -139,6 +164,8 @@ fn scalar(name: &str) -> Result<Scalar, String> {
         "ushort" | "uint16" => Ok(Scalar::U16),
         "int" | "int32" => Ok(Scalar::I32),
         "uint" | "uint32" => Ok(Scalar::U32),
+        "int64" | "long" => Ok(Scalar::I64),
+        "uint64" | "ulong" => Ok(Scalar::U64),
         "float" | "float32" => Ok(Scalar::F32),
         "double" | "float64" => Ok(Scalar::F64),
         _ => Err(format!("there is no PLY type `{name}`")),
