@@ -49,7 +49,7 @@ impl TriMesh {
         let kept = collapsed(&self.vertices, &self.triangles, triangles);
         let simplified = kept.len();
         let body =
-            TriMesh::new(self.vertices.clone(), kept).map_err(|error| ProxyError::NoBody {
+            TriMesh::closed(self.vertices.clone(), kept).map_err(|error| ProxyError::NoBody {
                 triangles: simplified,
                 error,
             })?;

@@ -116,7 +116,8 @@ fn mend(
         ("components", parts::keep_largest),
         ("splitting", split::split),
     ];
-    if check::closed_manifold(&soup.vertices, &soup.triangles).is_err() {
+    let closed = check::closed_manifold(&soup.vertices, &soup.triangles).is_ok();
+    if !closed || options.largest {
         for (at, (name, stage)) in stages.iter().enumerate() {
             if progress.cancelled() {
                 return Err(Unrepaired::Cancelled);
@@ -157,11 +158,7 @@ impl Soup {
         };
         let body = body.map_err(|error| report::left(&self.vertices, &self.triangles, error))?;
         self.did(Step::InsideOut {
-            triangles: if body.was_turned() {
-                body.triangles().len()
-            } else {
-                0
-            },
+            triangles: body.turned,
         });
         Ok(body)
     }

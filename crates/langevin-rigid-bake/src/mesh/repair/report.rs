@@ -221,16 +221,6 @@ pub enum Unrepaired {
         /// The one with the longest perimeter.
         largest: Hole,
     },
-    /// Several components.
-    #[error(
-        "it has {count} separate components, of {sizes:?} triangles (the largest first): keep the one of largest surface with `--largest`, join them by a boolean union, or make each a body of its own"
-    )]
-    Components {
-        /// How many.
-        count: usize,
-        /// Triangles of each, largest first, at most the first eight.
-        sizes: Vec<usize>,
-    },
     /// Nothing that could be mended unasked.
     #[error("it is no body still: {0}")]
     NoBody(MeshError),
@@ -252,9 +242,6 @@ pub(super) fn left(vertices: &[[f64; 3]], triangles: &[[u32; 3]], error: MeshErr
                 Some(largest) => Unrepaired::Open { count, largest },
                 None => Unrepaired::NoBody(error),
             }
-        }
-        MeshError::SeveralComponents { count, sizes, .. } => {
-            Unrepaired::Components { count, sizes }
         }
         error => Unrepaired::NoBody(error),
     }
