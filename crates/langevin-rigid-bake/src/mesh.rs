@@ -11,6 +11,7 @@ mod boundary;
 mod check;
 mod edges;
 mod error;
+mod hull;
 mod intersect;
 mod nesting;
 pub(crate) mod parts;
@@ -21,14 +22,18 @@ mod sheet;
 mod survey;
 pub(crate) mod vector;
 mod weld;
+mod wrap;
 
 pub use boundary::Hole;
 pub use edges::{Edge, open_edge_count};
 pub use error::{EdgeSite, MeshError};
 pub use proxy::ProxyError;
-pub use repair::{FILL, Options, Repaired, SMALL_HOLE, Step, Unrepaired, WELD, WIDE_HOLE, repair};
+pub use repair::{
+    Balance, FILL, Options, Repaired, SMALL_HOLE, Step, Unrepaired, WELD, WIDE_HOLE, repair,
+};
 pub use survey::{Component, Faults, Seams, Survey, survey};
 pub use weld::weld;
+pub use wrap::{WrapError, wrap};
 
 use std::borrow::Cow;
 

@@ -12,7 +12,9 @@ fn solve(mesh: &TriMesh) -> AddedMass {
 
 fn ball(triangles: usize) -> TriMesh {
     let semi_axes = [1.0; 3];
-    let ball = Shape::Ellipsoid { semi_axes }.mesh(triangles).expect("a ball");
+    let ball = Shape::Ellipsoid { semi_axes }
+        .mesh(triangles)
+        .expect("a ball");
     // As from a file, which does not say that it is smooth.
     TriMesh::new(ball.vertices().to_vec(), ball.triangles().to_vec()).expect("a ball again")
 }
@@ -22,7 +24,11 @@ fn together(a: &TriMesh, b: &TriMesh, size: f64, by: [f64; 3]) -> TriMesh {
     let n = a.vertices().len() as u32;
     let place = |v: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|k| size * v[k] + by[k]) };
     TriMesh::new(
-        a.vertices().iter().copied().chain(b.vertices().iter().map(place)).collect(),
+        a.vertices()
+            .iter()
+            .copied()
+            .chain(b.vertices().iter().map(place))
+            .collect(),
         a.triangles()
             .iter()
             .copied()
@@ -34,7 +40,10 @@ fn together(a: &TriMesh, b: &TriMesh, size: f64, by: [f64; 3]) -> TriMesh {
 
 fn assert_within(got: f64, want: f64, tolerance: f64) {
     let error = got / want - 1.0;
-    assert!(error.abs() < tolerance, "{got} for {want}, off by {error:.2e}");
+    assert!(
+        error.abs() < tolerance,
+        "{got} for {want}, off by {error:.2e}"
+    );
 }
 
 /// Added mass of two unit balls, their centres `c` apart, that move as one along the line of centres: each
@@ -57,7 +66,11 @@ fn two_balls_in_line_are_those_of_the_images() {
     let facets = solve(&ball).tensor[0][0] / (2.0 / 3.0 * PI);
     for (c, tolerance) in [(2.1, 1.5e-3), (2.5, 5e-4), (4.0, 3e-4), (40.0, 3e-4)] {
         let found = solve(&together(&ball, &ball, 1.0, [c, 0.0, 0.0]));
-        assert_within(found.tensor[0][0] / facets, along_the_line_of_centres(c), tolerance);
+        assert_within(
+            found.tensor[0][0] / facets,
+            along_the_line_of_centres(c),
+            tolerance,
+        );
     }
 }
 
@@ -80,7 +93,10 @@ fn a_sealed_cavity_is_out_of_reach() {
     let shell = together(&ball, &ball, 0.9, [0.05, 0.0, 0.0]);
     let (hollow, full) = (solve(&shell), solve(&ball));
     assert_eq!(hollow.tensor, full.tensor);
-    assert_eq!((hollow.surface, hollow.reference), (full.surface, full.reference));
+    assert_eq!(
+        (hollow.surface, hollow.reference),
+        (full.surface, full.reference)
+    );
 }
 
 #[test]

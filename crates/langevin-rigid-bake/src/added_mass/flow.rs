@@ -139,16 +139,12 @@ struct System<'a> {
 
 impl System<'_> {
     fn solve(&self, start: Vec<Six>, cancel: &Cancel) -> Result<Solution, AddedMassError> {
-        let preconditioner = Preconditioner::new(
-            self.w,
-            self.vertices,
-            self.components,
-            self.thickness.sheet,
-        )
-        .ok_or(AddedMassError::Singular {
-            iteration: 0,
-            energy: 0.0,
-        })?;
+        let preconditioner =
+            Preconditioner::new(self.w, self.vertices, self.components, self.thickness.sheet)
+                .ok_or(AddedMassError::Singular {
+                    iteration: 0,
+                    energy: 0.0,
+                })?;
         solve(self.w, self.loads, start, &preconditioner, cancel)
     }
 }

@@ -276,7 +276,10 @@ fn shares_in_components(members: &[SparseRow], components: &[u32]) -> Vec<Sparse
     let count = components.iter().max().map_or(0, |&c| c as usize + 1);
     let mut shares: Vec<SparseRow> = vec![Vec::new(); count];
     for (function, row) in (0..).zip(members) {
-        let mut weights: SparseRow = row.iter().map(|&(v, w)| (components[v as usize], w)).collect();
+        let mut weights: SparseRow = row
+            .iter()
+            .map(|&(v, w)| (components[v as usize], w))
+            .collect();
         weights.sort_by_key(|&(component, _)| component);
         let sum = |run: &[(u32, f64)]| run.iter().map(|&(_, w)| w).sum::<f64>();
         let total = sum(&weights);

@@ -186,11 +186,7 @@ pub(super) fn manifold_vertices(
 }
 
 /// Checks that each component encloses something.
-pub(super) fn volumes(
-    mesh: &TriMesh,
-    root_of: &[usize],
-    volumes: &[f64],
-) -> Result<(), MeshError> {
+pub(super) fn volumes(mesh: &TriMesh, root_of: &[usize], volumes: &[f64]) -> Result<(), MeshError> {
     let mut areas = vec![0.0; volumes.len()];
     let mut bounds = vec![bounding_box(&[]); volumes.len()];
     for (t, &root) in root_of.iter().enumerate() {

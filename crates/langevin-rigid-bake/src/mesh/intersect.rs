@@ -145,7 +145,11 @@ fn meeting(a: &Facet, b: &Facet, touch: f64) -> Option<[f64; 3]> {
     through.or_else(|| {
         let on = a.covers(b, touch) || b.covers(a, touch);
         on.then(|| {
-            let [smaller, _] = if extent(a) < extent(b) { [a, b] } else { [b, a] };
+            let [smaller, _] = if extent(a) < extent(b) {
+                [a, b]
+            } else {
+                [b, a]
+            };
             let [p, q, r] = smaller.corners;
             scale(1.0 / 3.0, add(p, add(q, r)))
         })

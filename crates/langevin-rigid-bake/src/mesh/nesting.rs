@@ -40,7 +40,9 @@ pub(super) fn around(
             .map(|t| places[root_of[t]])
             .collect();
         hit.sort_unstable();
-        let odd = hit.chunk_by(|a, b| a == b).filter(|hits| hits.len() % 2 == 1);
+        let odd = hit
+            .chunk_by(|a, b| a == b)
+            .filter(|hits| hits.len() % 2 == 1);
         odd.map(|hits| hits[0]).collect()
     };
     roots.iter().enumerate().map(surrounding).collect()

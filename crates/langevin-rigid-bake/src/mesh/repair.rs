@@ -3,6 +3,7 @@
 //! [`repair`] takes triangles as they come and does to them, in a fixed order, what [`Step`] lists. A
 //! body comes out as it went in.
 
+mod balance;
 mod degenerate;
 mod duplicates;
 mod holes;
@@ -12,6 +13,7 @@ mod report;
 mod split;
 mod weld;
 
+pub use balance::Balance;
 pub(super) use duplicates::first_copies;
 pub(super) use orient::{minority, signed_volumes};
 pub(super) use parts::areas;
@@ -19,7 +21,7 @@ pub use report::{Repaired, Step, Unrepaired};
 
 use super::boundary::open_sides;
 use super::edges::sorted_sides;
-use super::vector::{bounding_box, norm, sub};
+use super::vector::{bounding_box, cross, norm, sub};
 use super::{TriMesh, check, weld as welding};
 use crate::progress::Progress;
 
@@ -71,8 +73,9 @@ struct Soup {
 /// triangles.remove(7);
 /// triangles[20].swap(0, 1);
 /// let repaired = repair(cube.vertices(), &triangles, &Options::default(), &());
-/// let filled = Step::Filled { holes: 1, edges: 3, triangles: 1 };
-/// assert_eq!(repaired.steps, [Step::Turned { triangles: 1 }, filled]);
+/// assert_eq!(repaired.steps[0], Step::Turned { triangles: 1 });
+/// assert!(matches!(repaired.steps[1], Step::Filled { holes: 1, edges: 3, triangles: 1, .. }));
+/// assert!(repaired.balance.unwrap().made_share() < 0.01);
 /// assert!((repaired.body?.volume() / cube.volume() - 1.0).abs() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -91,8 +94,11 @@ pub fn repair(
         triangles: triangles.to_vec(),
         steps: Vec::new(),
     };
+    let given = sound_area(vertices, triangles);
     let body = mend(&mut soup, options, progress);
+    let balance = body.as_ref().ok();
     Repaired {
+        balance: balance.map(|body| Balance::new(given, &soup.steps, body)),
         steps: soup.steps,
         body,
     }
@@ -193,6 +199,22 @@ fn drop_unusable(soup: &mut Soup, _: &Options) {
     soup.did(Step::Unused {
         vertices: before[1] - soup.vertices.len(),
     });
+}
+
+/// Area of the triangles that can be used, each once (m²).
+fn sound_area(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> f64 {
+    let first = first_copies(triangles);
+    let is_sound =
+        |t: &usize| first[*t] == *t && triangles[*t].iter().all(|&v| is_place(vertices, v));
+    let sound = (0..triangles.len()).filter(is_sound);
+    sound
+        .map(|t| area_of(triangles[t].map(|v| vertices[v as usize])))
+        .sum()
+}
+
+/// Area of a triangle (m²).
+fn area_of([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    0.5 * norm(cross(sub(b, a), sub(c, a)))
 }
 
 /// Whether a vertex exists and its coordinates can be multiplied with each other.

@@ -94,7 +94,8 @@ pub struct Component {
 impl Component {
     /// Whether its normals point into the solid.
     pub fn is_inside_out(&self) -> bool {
-        self.volume.is_some_and(|volume| (volume < 0.0) != (self.depth % 2 == 1))
+        self.volume
+            .is_some_and(|volume| (volume < 0.0) != (self.depth % 2 == 1))
     }
 
     /// What it adds to the solid (m³), negative for a cavity; nothing where it is open.
@@ -151,10 +152,7 @@ pub fn survey(
         vertices: vertices.len(),
         bounds: sound.bounds,
         area: components.iter().map(|c| c.area).sum(),
-        volume: components
-            .iter()
-            .filter_map(Component::solid)
-            .sum(),
+        volume: components.iter().filter_map(Component::solid).sum(),
         unusable: sound.unusable,
         unused_vertices: sound.unused,
         degenerate: sound.degenerate,
@@ -289,7 +287,9 @@ fn components(
     roots.iter().for_each(|&root| counts[root] += 1);
     let mut order: Vec<usize> = (0..roots.len()).filter(|&r| counts[r] > 0).collect();
     order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]));
-    let around = around(&sound.vertices, &agreeing, &roots, &order, |root| closed[root]);
+    let around = around(&sound.vertices, &agreeing, &roots, &order, |root| {
+        closed[root]
+    });
     order
         .iter()
         .zip(around)

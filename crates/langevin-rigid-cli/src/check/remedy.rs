@@ -1,7 +1,7 @@
 //! Which repair mends a mesh: each is tried.
 
 use langevin_rigid_bake::TriMesh;
-use langevin_rigid_bake::mesh::{Options, Step, Survey, Unrepaired, repair};
+use langevin_rigid_bake::mesh::{Balance, Options, Step, Survey, Unrepaired, repair};
 use langevin_rigid_formats::mesh::RawMesh;
 
 use crate::bars::Bars;
@@ -20,6 +20,8 @@ pub(super) struct Remedy {
     pub(super) sheet_flags: Option<String>,
     pub(super) steps: Vec<Step>,
     pub(super) body: Option<TriMesh>,
+    /// What is lost and made on the way to it.
+    pub(super) balance: Option<Balance>,
     /// Why the mildest repair gives none.
     pub(super) left: Option<Unrepaired>,
 }
@@ -44,6 +46,7 @@ impl Remedy {
                 Ok(body) => {
                     remedy.flags = Some(flags);
                     remedy.steps = repaired.steps;
+                    remedy.balance = repaired.balance.filter(|_| !is_sheet);
                     // A sheet's thickness is for its owner to say, and so is what comes of it.
                     remedy.body = Some(body).filter(|_| !is_sheet);
                     if options.fill.is_some() {

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::remedy::Remedy;
 use crate::arguments::Check;
-use crate::repair::StepReport;
+use crate::repair::{BalanceReport, StepReport};
 
 /// Holes and components that are listed.
 const LISTED: usize = 5;
@@ -62,6 +62,8 @@ pub(super) struct Report {
     /// The same, if the hole is the rim of a sheet.
     repair_of_sheet: Option<String>,
     repair_steps: Vec<StepReport>,
+    repair_balance: Option<BalanceReport>,
+    repair_warnings: Vec<String>,
     left: Option<String>,
 }
 
@@ -162,6 +164,11 @@ impl Report {
                 .sheet_flags
                 .as_ref()
                 .map(|flags| command(options, flags)),
+            repair_balance: remedy.balance.as_ref().map(BalanceReport::new),
+            repair_warnings: remedy
+                .balance
+                .as_ref()
+                .map_or_else(Vec::new, |balance| balance.warnings()),
             repair_steps: remedy.steps.iter().map(StepReport::new).collect(),
             left: remedy
                 .flags

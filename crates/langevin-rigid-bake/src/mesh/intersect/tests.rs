@@ -16,7 +16,12 @@ fn cube(triangles: usize) -> Mesh {
 }
 
 fn ball(triangles: usize) -> Mesh {
-    mesh(&Shape::Ellipsoid { semi_axes: [1.0; 3] }, triangles)
+    mesh(
+        &Shape::Ellipsoid {
+            semi_axes: [1.0; 3],
+        },
+        triangles,
+    )
 }
 
 /// Both, the second scaled and shifted.
@@ -78,14 +83,23 @@ fn parts_meet_where_they_touch_or_overlap() {
         ([0.0; 3], 1.0, true),
     ] {
         assert_eq!(meet(&with(&cube, &cube, size, by)), wanted, "{by:?} {size}");
-        assert_eq!(meet(&with(&cube, &super::tests::cube(12), size, by)), wanted, "{by:?} {size}");
+        assert_eq!(
+            meet(&with(&cube, &super::tests::cube(12), size, by)),
+            wanted,
+            "{by:?} {size}"
+        );
     }
     let ball = ball(1280);
     for (x, wanted) in [(2.01, false), (1.99, true), (0.01, true)] {
         assert_eq!(meet(&with(&ball, &ball, 1.0, [x, 0.0, 0.0])), wanted, "{x}");
     }
     // Its equator lies in the plane of a face.
-    assert!(meet(&with(&cube, &tube(|_| 0.3, 16, 0.1), 1.0, [0.0, 0.0, 0.5])));
+    assert!(meet(&with(
+        &cube,
+        &tube(|_| 0.3, 16, 0.1),
+        1.0,
+        [0.0, 0.0, 0.5]
+    )));
 }
 
 #[test]
@@ -126,13 +140,31 @@ fn a_flap_folded_flat_lies_on_its_neighbour() {
 #[test]
 fn rounding_to_single_precision_makes_no_meetings() {
     let round = |m: &Mesh, by: f64| -> Mesh {
-        let v = m.0.iter().map(|v| v.map(|x| f64::from((0.1 * x + by) as f32)));
+        let v =
+            m.0.iter()
+                .map(|v| v.map(|x| f64::from((0.1 * x + by) as f32)));
         (v.collect(), m.1.clone())
     };
     let shapes = [
-        (Shape::Box { size: [1.0, 0.3, 0.7] }, 6000),
-        (Shape::Disc { radius: 1.0, thickness: 0.01 }, 3000),
-        (Shape::Ellipsoid { semi_axes: [1.0, 0.5, 0.1] }, 5120),
+        (
+            Shape::Box {
+                size: [1.0, 0.3, 0.7],
+            },
+            6000,
+        ),
+        (
+            Shape::Disc {
+                radius: 1.0,
+                thickness: 0.01,
+            },
+            3000,
+        ),
+        (
+            Shape::Ellipsoid {
+                semi_axes: [1.0, 0.5, 0.1],
+            },
+            5120,
+        ),
     ];
     let turn = |v: [f64; 3]| {
         let (s, c) = (0.7f64.sin(), 0.7f64.cos());

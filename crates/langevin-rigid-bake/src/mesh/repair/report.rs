@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::Balance;
 use crate::mesh::boundary::{Hole, loops, open_sides};
 use crate::mesh::edges::sorted_sides;
 use crate::mesh::{MeshError, ProxyError, TriMesh};
@@ -11,6 +12,8 @@ use crate::mesh::{MeshError, ProxyError, TriMesh};
 pub struct Repaired {
     /// What was done, in this order.
     pub steps: Vec<Step>,
+    /// What was lost and made on the way to the body.
+    pub balance: Option<Balance>,
     /// The body, or why there is none yet.
     pub body: Result<TriMesh, Unrepaired>,
 }
@@ -75,6 +78,8 @@ pub enum Step {
         dropped: usize,
         /// Their triangles.
         triangles: usize,
+        /// The area of these (m²).
+        area: f64,
     },
     /// Filled holes.
     Filled {
@@ -84,6 +89,8 @@ pub enum Step {
         edges: usize,
         /// Triangles added.
         triangles: usize,
+        /// The area of these (m²).
+        area: f64,
     },
     /// Thickened an open sheet.
     Thickened {
@@ -177,17 +184,22 @@ impl fmt::Display for Step {
                 f,
                 "took apart what touched along {edges} edges or in points, by {vertices} more vertices"
             ),
-            Step::Components { dropped, triangles } => write!(
+            Step::Components {
+                dropped,
+                triangles,
+                area,
+            } => write!(
                 f,
-                "dropped {dropped} smaller components of {triangles} triangles together"
+                "dropped {dropped} smaller components of {triangles} triangles and {area:.3e} m^2 together"
             ),
             Step::Filled {
                 holes,
                 edges,
                 triangles,
+                area,
             } => write!(
                 f,
-                "filled {holes} holes of {edges} edges together with {triangles} triangles"
+                "filled {holes} holes of {edges} edges together with {triangles} triangles of {area:.3e} m^2"
             ),
             Step::Thickened { edges, thickness } => write!(
                 f,

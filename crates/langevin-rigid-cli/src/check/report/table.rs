@@ -208,6 +208,12 @@ impl Report {
             for step in &self.repair_steps {
                 line("", step.text().to_owned());
             }
+            if let Some(balance) = &self.repair_balance {
+                line("", balance.text().to_owned());
+            }
+            for warning in &self.repair_warnings {
+                line("", format!("warning: {warning}"));
+            }
         }
         if let Some(command) = &self.repair_of_sheet {
             line("or, as a sheet", command.clone());
