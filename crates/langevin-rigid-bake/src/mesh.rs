@@ -33,7 +33,7 @@ pub use repair::{
 };
 pub use survey::{Component, Faults, Seams, Survey, survey};
 pub use weld::weld;
-pub use wrap::{WrapError, wrap};
+pub use wrap::WrapError;
 
 use std::borrow::Cow;
 

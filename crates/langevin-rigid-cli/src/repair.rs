@@ -78,6 +78,7 @@ pub(crate) fn repair(options: &Repair, bars: &Bars) -> Result<()> {
         weld: options.weld,
         fill: options.fill,
         thickness: options.thickness,
+        wrap: options.wrap,
         triangles: options.triangles.map(|n| n as usize),
         largest: options.largest,
     };

@@ -40,19 +40,39 @@ impl TriMesh {
     /// # Errors
     /// [`ProxyError`]: too few triangles are asked for, or the result is not the surface of a body.
     pub fn proxy(&self, triangles: usize) -> Result<TriMesh, ProxyError> {
+        self.simplified(triangles, |_| Ok(()))
+    }
+
+    /// A proxy that `accept` finds no fault with.
+    pub(super) fn simplified(
+        &self,
+        triangles: usize,
+        accept: fn(&TriMesh) -> Result<(), MeshError>,
+    ) -> Result<TriMesh, ProxyError> {
         if triangles < 4 {
             return Err(ProxyError::TooFew(triangles));
         }
         if self.triangles.len() <= triangles {
             return Ok(self.clone());
         }
-        let kept = collapsed(&self.vertices, &self.triangles, triangles);
-        let simplified = kept.len();
-        let body =
-            TriMesh::closed(self.vertices.clone(), kept).map_err(|error| ProxyError::NoBody {
-                triangles: simplified,
-                error,
-            })?;
+        let mut wanted = triangles;
+        let body = loop {
+            let kept = collapsed(&self.vertices, &self.triangles, wanted);
+            let simplified = kept.len();
+            let found = TriMesh::closed(self.vertices.clone(), kept)
+                .and_then(|body| accept(&body).map(|()| body));
+            match found {
+                Ok(body) => break body,
+                Err(error) if simplified >= self.triangles.len() / 2 => {
+                    return Err(ProxyError::NoBody {
+                        triangles: simplified,
+                        error,
+                    });
+                }
+                // Thin parts fall together; finer triangles may spare them.
+                Err(_) => wanted += wanted.div_ceil(2),
+            }
+        };
         // About any point; a point inside moves the surface least.
         let [low, high] = bounding_box(&body.vertices);
         let centre = scale(0.5, add(low, high));

@@ -22,6 +22,7 @@ pub use report::{Repaired, Step, Unrepaired};
 use super::boundary::open_sides;
 use super::edges::sorted_sides;
 use super::vector::{bounding_box, cross, norm, sub};
+use super::wrap::{Wrap, wrap};
 use super::{TriMesh, check, weld as welding};
 use crate::progress::Progress;
 
@@ -48,6 +49,9 @@ pub struct Options {
     pub thickness: Option<f64>,
     /// Triangles to simplify to.
     pub triangles: Option<usize>,
+    /// In place of all this wrap the triangles: one closed surface around them that closes gaps up to about
+    /// this size (m) and leaves out what is inside.
+    pub wrap: Option<f64>,
     /// Keep the component with the largest surface and drop the others.
     pub largest: bool,
 }
@@ -109,6 +113,12 @@ fn mend(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<TriMesh, Unrepaired> {
+    if let Some(size) = options.wrap {
+        progress.report("wrapping", 0.0);
+        drop_unusable(soup, options);
+        let body = soup.wrapped(size)?;
+        return soup.simplified(body, options.triangles);
+    }
     let stages: [(&str, Stage); 11] = [
         ("dropping the unusable", drop_unusable),
         ("welding", weld::weld),
@@ -169,6 +179,16 @@ impl Soup {
         Ok(body)
     }
 
+    fn wrapped(&mut self, size: f64) -> Result<TriMesh, Unrepaired> {
+        let Wrap { body, made } = wrap(&self.vertices, &self.triangles, size)?;
+        self.did(Step::Wrapped {
+            size,
+            triangles: body.triangles().len(),
+            made,
+        });
+        Ok(body)
+    }
+
     fn simplified(
         &mut self,
         body: TriMesh,
@@ -178,7 +198,8 @@ impl Soup {
         let Some(wanted) = triangles.filter(|&n| n < from) else {
             return Ok(body);
         };
-        let body = body.proxy(wanted)?;
+        let apart = |body: &TriMesh| check::apart(&body.vertices, &body.triangles);
+        let body = body.simplified(wanted, apart)?;
         let to = body.triangles().len();
         self.did(Step::Simplified { from, to });
         Ok(body)

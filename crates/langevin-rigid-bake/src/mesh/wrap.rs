@@ -10,6 +10,7 @@ mod triangle;
 
 use rayon::prelude::*;
 
+use super::check::has_no_area;
 use super::intersect::meetings;
 use super::vector::{add, norm, scale, sub};
 use super::{MeshError, TriMesh};
@@ -24,6 +25,16 @@ const LEFT: f64 = 0.02;
 const LEFT_OF_SHEET: f64 = 0.5;
 /// Most nodes, each of 12 bytes.
 const MOST_NODES: f64 = 3e7;
+
+/// Distance from the triangles, in offsets, of a surface that closes a gap.
+const MADE: f64 = 0.6;
+
+/// A closed surface around some triangles.
+pub(super) struct Wrap {
+    pub(super) body: TriMesh,
+    /// Area of what closes gaps (m²).
+    pub(super) made: f64,
+}
 
 /// Why there is no wrap.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -56,11 +67,11 @@ pub enum WrapError {
 ///
 /// # Errors
 /// [`WrapError`]: no triangles, a size that is none, or one that is too fine for the memory.
-pub fn wrap(
+pub(super) fn wrap(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
     size: f64,
-) -> Result<TriMesh, WrapError> {
+) -> Result<Wrap, WrapError> {
     if !(size > 0.0 && size.is_finite()) {
         return Err(WrapError::BadSize(size));
     }
@@ -82,7 +93,13 @@ pub fn wrap(
     let grid = Grid::new(&corners, pitch, offset, shape);
     let (at_offset, triangles) = tetrahedra::surface(&grid, offset);
     let settled = settled(&grid, &at_offset, &triangles, offset);
-    TriMesh::new(settled, triangles).map_err(WrapError::NoBody)
+    let body = TriMesh::new(settled, triangles).map_err(WrapError::NoBody)?;
+    let is_made = |t: &usize| grid.distance_of(body.centroid(*t)) > MADE * offset;
+    let made = (0..body.triangles().len()).filter(is_made);
+    Ok(Wrap {
+        made: made.map(|t| body.area(t)).sum(),
+        body,
+    })
 }
 
 /// The surface moved onto the triangles, but for places where it would meet itself there.
@@ -101,8 +118,11 @@ fn settled(
         let place = |v: usize| add(at_offset[v], scale(share[v], moves[v]));
         let places: Vec<[f64; 3]> = (0..share.len()).map(place).collect();
         let mut again = false;
-        for meeting in meetings(&places, triangles) {
-            for v in meeting.triangles.iter().flat_map(|&t| triangles[t]) {
+        let is_flat = |t: &usize| has_no_area(triangles[*t].map(|v| places[v as usize]));
+        let meet = meetings(&places, triangles);
+        let meet = meet.iter().flat_map(|meeting| meeting.triangles);
+        for t in meet.chain((0..triangles.len()).filter(is_flat)) {
+            for v in triangles[t] {
                 let share = &mut share[v as usize];
                 again |= *share > 0.0;
                 *share = if *share > 0.3 { 0.5 * *share } else { 0.0 };

@@ -9,6 +9,10 @@ use crate::bars::Bars;
 /// Thickness of a sheet that is tried, as a share of the diagonal of its box.
 const TRIED_THICKNESS: f64 = 1e-3;
 
+/// Size of a wrap that is tried, as a share of the diagonal, and the triangles that it is simplified to.
+const TRIED_WRAP: f64 = 0.02;
+const WRAP_TRIANGLES: usize = 20_000;
+
 /// Share of the area below which a component is debris.
 const DEBRIS: f64 = 0.01;
 
@@ -33,7 +37,8 @@ impl Remedy {
         let mut remedy = Remedy::default();
         for (flags, options) in tries(survey) {
             let is_sheet = options.thickness.is_some();
-            if remedy.flags.is_some() && !is_sheet {
+            // A wrap is the last resort.
+            if (remedy.flags.is_some() && !is_sheet) || bars.interrupted() {
                 continue;
             }
             let repaired = repair(&raw.vertices, &raw.triangles, &options, bars);
@@ -74,6 +79,13 @@ fn tries(survey: &Survey) -> Vec<(String, Options)> {
         thickness: Some(TRIED_THICKNESS * diagonal2.sqrt()).filter(|t| *t > 0.0),
         ..mild
     };
+    let size = two_digits(TRIED_WRAP * diagonal2.sqrt());
+    let wrap = Options {
+        wrap: Some(size).filter(|size| *size > 0.0),
+        triangles: Some(WRAP_TRIANGLES),
+        ..Options::default()
+    };
+    let wrapped = format!(" --wrap {size} --triangles {WRAP_TRIANGLES}");
     let of_largest = others_are_debris(survey);
     [
         (String::new(), mild),
@@ -90,7 +102,12 @@ fn tries(survey: &Survey) -> Vec<(String, Options)> {
         [Some((flags, options)), of_largest.then_some(with_largest)]
     })
     .flatten()
+    .chain([(wrapped, wrap)])
     .collect()
+}
+
+fn two_digits(x: f64) -> f64 {
+    format!("{x:.1e}").parse().unwrap_or(x)
 }
 
 /// Whether all components but the largest are small or inside it, so that dropping them is not to lose a

@@ -29,7 +29,7 @@ impl Balance {
         for step in steps {
             match step {
                 Step::Components { area, .. } => lost += area,
-                Step::Filled { area, .. } => made += area,
+                Step::Filled { area, .. } | Step::Wrapped { made: area, .. } => made += area,
                 _ => {}
             }
         }

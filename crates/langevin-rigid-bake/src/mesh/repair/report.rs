@@ -5,7 +5,7 @@ use std::fmt;
 use super::Balance;
 use crate::mesh::boundary::{Hole, loops, open_sides};
 use crate::mesh::edges::sorted_sides;
-use crate::mesh::{MeshError, ProxyError, TriMesh};
+use crate::mesh::{MeshError, ProxyError, TriMesh, WrapError};
 
 /// What became of a mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,6 +99,15 @@ pub enum Step {
         /// The thickness (m).
         thickness: f64,
     },
+    /// Wrapped the triangles in a closed surface.
+    Wrapped {
+        /// Size of the gaps that it closes (m).
+        size: f64,
+        /// Its triangles.
+        triangles: usize,
+        /// Area of what closes gaps (m²).
+        made: f64,
+    },
     /// Simplified the body, keeping its volume.
     Simplified {
         /// Triangles before.
@@ -123,6 +132,7 @@ impl Step {
             Step::Components { .. } => "components",
             Step::Filled { .. } => "fill",
             Step::Thickened { .. } => "thicken",
+            Step::Wrapped { .. } => "wrap",
             Step::Simplified { .. } => "simplify",
         }
     }
@@ -143,6 +153,7 @@ impl Step {
             Step::Split { edges, vertices } => edges + vertices,
             Step::Filled { holes, .. } => holes,
             Step::Thickened { edges, .. } => edges,
+            Step::Wrapped { triangles, .. } => triangles,
             Step::Simplified { from, to } => from - to,
         }
     }
@@ -205,6 +216,14 @@ impl fmt::Display for Step {
                 f,
                 "thickened the open sheet, whose rim has {edges} edges, to {thickness} m"
             ),
+            Step::Wrapped {
+                size,
+                triangles,
+                made,
+            } => write!(
+                f,
+                "wrapped all in a surface of {triangles} triangles that closes gaps up to {size:.3e} m, with {made:.3e} m^2 across gaps"
+            ),
             Step::Simplified { from, to } => {
                 write!(
                     f,
@@ -236,6 +255,9 @@ pub enum Unrepaired {
     /// Nothing that could be mended unasked.
     #[error("it is no body still: {0}")]
     NoBody(MeshError),
+    /// It cannot be wrapped.
+    #[error(transparent)]
+    Wrap(#[from] WrapError),
     /// It cannot be simplified that far.
     #[error(transparent)]
     Proxy(#[from] ProxyError),

@@ -147,6 +147,11 @@ impl<'a> Grid<'a> {
         self.reached[self.number(self.node(p, f64::round))]
     }
 
+    /// Distance of a point from the triangles (m), infinite far from them.
+    pub(super) fn distance_of(&self, p: [f64; 3]) -> f64 {
+        self.nearest(p).map_or(f64::INFINITY, |q| norm(sub(q, p)))
+    }
+
     /// The point nearest to `p` of the triangles that the nodes around it know.
     pub(super) fn nearest(&self, p: [f64; 3]) -> Option<[f64; 3]> {
         let [i, j, k] = self.node(p, f64::floor);
