@@ -1,6 +1,6 @@
 //! A coarser mesh in place of a fine one.
 
-use super::{MeshError, TriMesh};
+use super::{MeshError, TriMesh, repair};
 use crate::mesh::vector::{add, bounding_box, scale, sub};
 
 /// Why there is no proxy.
@@ -59,7 +59,7 @@ impl TriMesh {
         let body = loop {
             let kept = collapsed(&self.vertices, &self.triangles, wanted);
             let simplified = kept.len();
-            let found = TriMesh::closed(self.vertices.clone(), kept)
+            let found = closed_or_mended(&self.vertices, kept)
                 .and_then(|body| accept(&body).map(|()| body));
             match found {
                 Ok(body) => break body,
@@ -84,6 +84,14 @@ impl TriMesh {
             ..body
         })
     }
+}
+
+/// The body, after what collapsed to nothing is taken out if need be.
+fn closed_or_mended(vertices: &[[f64; 3]], triangles: Vec<[u32; 3]>) -> Result<TriMesh, MeshError> {
+    TriMesh::closed(vertices.to_vec(), triangles.clone()).or_else(|_| {
+        let (vertices, triangles) = repair::without_remnants(vertices.to_vec(), triangles);
+        TriMesh::closed(vertices, triangles)
+    })
 }
 
 /// Triangles over some of the vertices, about `wanted` of them.

@@ -206,6 +206,30 @@ impl Soup {
     }
 }
 
+/// The surface without triangles that have no area or lie back to back.
+pub(super) fn without_remnants(
+    vertices: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let mut soup = Soup {
+        vertices,
+        triangles,
+        steps: Vec::new(),
+    };
+    let stages: [Stage; 6] = [
+        drop_unusable,
+        degenerate::resolve,
+        duplicates::drop,
+        degenerate::resolve,
+        duplicates::drop,
+        split::split,
+    ];
+    for stage in stages {
+        stage(&mut soup, &Options::default());
+    }
+    (soup.vertices, soup.triangles)
+}
+
 /// Drops triangles whose corners are no places, and all vertices without a triangle.
 fn drop_unusable(soup: &mut Soup, _: &Options) {
     let before = [soup.triangles.len(), soup.vertices.len()];

@@ -9,9 +9,8 @@ use crate::bars::Bars;
 /// Thickness of a sheet that is tried, as a share of the diagonal of its box.
 const TRIED_THICKNESS: f64 = 1e-3;
 
-/// Size of a wrap that is tried, as a share of the diagonal, and the triangles that it is simplified to.
+/// Size of a wrap that is tried, as a share of the diagonal.
 const TRIED_WRAP: f64 = 0.02;
-const WRAP_TRIANGLES: usize = 20_000;
 
 /// Share of the area below which a component is debris.
 const DEBRIS: f64 = 0.01;
@@ -82,10 +81,9 @@ fn tries(survey: &Survey) -> Vec<(String, Options)> {
     let size = two_digits(TRIED_WRAP * diagonal2.sqrt());
     let wrap = Options {
         wrap: Some(size).filter(|size| *size > 0.0),
-        triangles: Some(WRAP_TRIANGLES),
         ..Options::default()
     };
-    let wrapped = format!(" --wrap {size} --triangles {WRAP_TRIANGLES}");
+    let wrapped = format!(" --wrap {size}");
     let of_largest = others_are_debris(survey);
     [
         (String::new(), mild),
