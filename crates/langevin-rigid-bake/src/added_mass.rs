@@ -102,17 +102,19 @@ pub struct AddedMass {
 /// The surface solved on, refined from the one given, with the potentials of the six unit motions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
-    /// Vertex positions (m): those of the mesh given in their order, then those added.
+    /// Vertex positions (m): those of the [wetted](TriMesh::wetted) mesh in their order, then those added.
     pub vertices: Vec<[f64; 3]>,
     /// Vertex indices of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     /// Exterior velocity potential at each vertex for unit velocity along x, y, z (m²/s per m/s)
     /// and unit angular velocity about axes x, y, z through the reference (m²/s per rad/s). Linear
-    /// in between. Its constant is free; here the mean over the surface is zero.
+    /// in between. Its constant on each component of the surface is free, since no force or energy depends on
+    /// it; here the mean over each is zero.
     pub potentials: Vec<[f64; 6]>,
 }
 
-/// Added mass of a closed body in unbounded fluid (method: see the [module](self)).
+/// Added mass of a closed body in unbounded fluid (method: see the [module](self)). Several surfaces move as
+/// one body; those in sealed cavities are out of the fluid's reach and have no part in it.
 ///
 /// ```
 /// use langevin_rigid_bake::added_mass::{Options, added_mass};
@@ -136,6 +138,7 @@ pub fn added_mass(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<AddedMass, AddedMassError> {
+    let mesh = &*mesh.wetted();
     check_size(mesh.triangles().len(), options)?;
     let body = Discretized::new(mesh, options, progress)?;
     check_size(body.triangles.len(), options)?;

@@ -60,6 +60,7 @@ pub fn bake_body(
     progress: &dyn Progress,
 ) -> Result<(Body, AddedMass), BodyBakeError> {
     let mass = mass_properties(mesh, spec)?;
+    let mesh = &*mesh.wetted();
     let added = added_mass(mesh, &Options::default(), progress)?;
     let centre = mass.centre_of_mass;
     let from_centre = |p: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| p[i] - centre[i]) };

@@ -10,6 +10,7 @@ use crate::mesh::vector::dot;
 /// Thickness b of Eq. (1) for any mesh (m): six volumes over the surface, which is the diameter of a
 /// sphere and the side of a cube, but not more than the smallest extent.
 pub fn characteristic_thickness(mesh: &TriMesh, half_extents: [f64; 3]) -> f64 {
+    let mesh = mesh.wetted();
     (6.0 * mesh.volume() / mesh.surface_area()).min(2.0 * half_extents[2])
 }
 
@@ -35,6 +36,7 @@ pub fn half_extents(mesh: &TriMesh) -> [f64; 3] {
 
 /// The principal axes of a mesh's volume and half the extents along them (m).
 pub(crate) fn principal_extents(mesh: &TriMesh) -> (PrincipalAxes, [f64; 3]) {
+    let mesh = &*mesh.wetted();
     let axes = PrincipalAxes::of(&second_moments(mesh));
     let extents = axes.along(|direction| half_width(mesh, direction));
     (axes, extents)

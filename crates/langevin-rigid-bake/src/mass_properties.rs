@@ -29,20 +29,20 @@ pub use inertia::principal_moments;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MassProperties {
-    /// Volume (m³).
+    /// Volume of the fluid displaced (m³), that of sealed cavities included.
     pub volume: f64,
-    /// Centroid of the volume (m), where buoyancy acts.
+    /// Centroid of that volume (m), where buoyancy acts.
     pub centroid: [f64; 3],
     /// Mass (kg).
     pub mass: f64,
-    /// Centre of mass (m); the centroid for a uniform body.
+    /// Centre of mass (m); the centroid for a uniform body without cavities.
     pub centre_of_mass: [f64; 3],
     /// Inertia tensor about the centre of mass, along the mesh's axes (kg m²).
     pub inertia: [[f64; 3]; 3],
 }
 
 impl MassProperties {
-    /// The properties of a body of uniform `density` (kg/m³).
+    /// The properties of a body whose solid is of uniform `density` (kg/m³); sealed cavities are empty.
     ///
     /// # Errors
     ///
@@ -50,19 +50,19 @@ impl MassProperties {
     pub fn of(mesh: &TriMesh, density: f64) -> Result<MassProperties, MassError> {
         check_positive("density", density, "kg/m³")?;
         let middle = middle_of(mesh);
-        let moments = Moments::about(mesh, middle);
-        let from_middle = moments.centroid();
-        let centroid = add(middle, from_middle);
+        let solid = Moments::about(mesh, middle);
+        let displaced = Moments::about(&mesh.wetted(), middle);
+        let from_middle = solid.centroid();
         Ok(MassProperties {
-            volume: moments.volume,
-            centroid,
-            mass: density * moments.volume,
-            centre_of_mass: centroid,
-            inertia: inertia_of(&moments, from_middle, density),
+            volume: displaced.volume,
+            centroid: add(middle, displaced.centroid()),
+            mass: density * solid.volume,
+            centre_of_mass: add(middle, from_middle),
+            inertia: inertia_of(&solid, from_middle, density),
         })
     }
 
-    /// Mean density (kg/m³).
+    /// Mean density (kg/m³): mass over the volume displaced.
     pub fn density(&self) -> f64 {
         self.mass / self.volume
     }
@@ -188,10 +188,10 @@ fn check_positive(quantity: &'static str, value: f64, unit: &'static str) -> Res
     })
 }
 
-/// Centroid of the volume of a mesh (m).
+/// Centroid of the volume that a mesh displaces (m).
 pub(crate) fn centroid(mesh: &TriMesh) -> [f64; 3] {
     let middle = middle_of(mesh);
-    add(middle, Moments::about(mesh, middle).centroid())
+    add(middle, Moments::about(&mesh.wetted(), middle).centroid())
 }
 
 fn middle_of(mesh: &TriMesh) -> [f64; 3] {

@@ -1,17 +1,20 @@
 //! Closed, oriented triangle meshes: the geometry every body starts from.
 //!
-//! [`TriMesh::new`] accepts only what the boundary integrals can use: a closed, connected,
-//! consistently oriented manifold that encloses a volume. Everything else is a [`MeshError`] that
+//! [`TriMesh::new`] accepts only what the boundary integrals can use: one or several closed manifolds that
+//! do not meet, and enclose a volume. Everything else is a [`MeshError`] that
 //! names the place and the remedy. [`TriMesh::from_sheet`] turns an open sheet into such a body,
 //! [`weld`] joins the vertices a file format duplicated, [`survey()`] tells everything about a mesh that may
 //! be bad, and [`repair()`] mends it.
 
+mod body;
 mod boundary;
 mod check;
 mod edges;
 mod error;
+mod hull;
+mod intersect;
 mod nesting;
-mod parts;
+pub(crate) mod parts;
 mod proxy;
 mod repair;
 mod seams;
@@ -19,19 +22,28 @@ mod sheet;
 mod survey;
 pub(crate) mod vector;
 mod weld;
+mod wrap;
 
 pub use boundary::Hole;
 pub use edges::{Edge, open_edge_count};
 pub use error::{EdgeSite, MeshError};
 pub use proxy::ProxyError;
-pub use repair::{FILL, Options, Repaired, SMALL_HOLE, Step, Unrepaired, WELD, WIDE_HOLE, repair};
+pub use repair::{
+    Balance, FILL, Options, Repaired, SMALL_HOLE, Step, Unrepaired, WELD, WIDE_HOLE, repair,
+};
 pub use seams::{ClosedSeams, close_seams};
 pub use survey::{Component, Faults, Seams, Survey, survey};
 pub use weld::weld;
+pub use wrap::WrapError;
+
+use std::borrow::Cow;
 
 use vector::{add, cross, det, dot, mat_vec, norm, scale, sub};
 
-/// A closed, consistently oriented, connected triangle mesh with outward normals (metres).
+/// The surface of a rigid body (metres): closed, with normals out of the solid.
+///
+/// It may have several components, parts that are apart and cavities: each is turned by how many others are
+/// around it. What is inside another component is sealed off from the fluid.
 ///
 /// ```
 /// use langevin_rigid_bake::TriMesh;
@@ -48,32 +60,41 @@ use vector::{add, cross, det, dot, mat_vec, norm, scale, sub};
 pub struct TriMesh {
     vertices: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
-    turned: bool,
+    /// How many triangles were turned.
+    turned: usize,
     smooth: bool,
+    /// Triangles inside another component, ascending.
+    sealed: Vec<u32>,
 }
 
 impl TriMesh {
     /// A body from vertex positions (m) and counter-clockwise vertex triples, after every check.
     ///
-    /// A mesh whose normals all point inwards is turned ([`TriMesh::was_turned`] tells); vertices
-    /// that no triangle uses are dropped and the others renumbered in order. Self-intersection is
-    /// not looked for.
+    /// A component whose normals point into the solid is turned ([`TriMesh::was_turned`] tells); vertices
+    /// that no triangle uses are dropped and the others renumbered in order.
     ///
     /// # Errors
     ///
     /// The first [`MeshError`] in the order its variants are listed; numbers in it are those of
     /// the arguments, counted from 0.
     pub fn new(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<TriMesh, MeshError> {
+        let mesh = TriMesh::closed(vertices, triangles)?;
+        check::apart(&mesh.vertices, &mesh.triangles)?;
+        Ok(mesh)
+    }
+
+    /// The same, without looking for places where the surface meets itself.
+    fn closed(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<TriMesh, MeshError> {
         check::closed_manifold(&vertices, &triangles)?;
         let (vertices, triangles) = weld::drop_unused(vertices, triangles);
         let mesh = TriMesh {
             vertices,
             triangles,
-            turned: false,
+            turned: 0,
             smooth: false,
+            sealed: Vec::new(),
         };
-        check::volume(&mesh)?;
-        Ok(mesh.turned_outward())
+        mesh.oriented()
     }
 
     /// A body from an open sheet, thickened by `thickness` (m), half to either side.
@@ -121,9 +142,9 @@ impl TriMesh {
         &self.triangles
     }
 
-    /// Whether the triangles came with inward normals and were turned.
+    /// Whether triangles came with normals into the solid and were turned.
     pub fn was_turned(&self) -> bool {
-        self.turned
+        self.turned > 0
     }
 
     /// Whether every edge is a facet boundary of a smooth surface rather than an edge of the body.
@@ -179,14 +200,51 @@ impl TriMesh {
         (0..self.triangles.len()).map(|t| self.area(t)).sum()
     }
 
-    /// Enclosed volume (m³), positive.
-    pub fn volume(&self) -> f64 {
-        self.signed_volume()
+    /// The surface that the fluid reaches: without what is inside another component.
+    ///
+    /// ```
+    /// use langevin_rigid_bake::TriMesh;
+    /// use langevin_rigid_bake::shapes::Shape;
+    ///
+    /// let cube = Shape::Box { size: [0.1; 3] }.mesh(12)?;
+    /// let half = cube.vertices().iter().map(|v| v.map(|x| 0.5 * x));
+    /// let n = cube.vertices().len() as u32;
+    /// let within = cube.triangles().iter().map(|t| t.map(|v| v + n));
+    /// let shell = TriMesh::new(
+    ///     cube.vertices().iter().copied().chain(half).collect(),
+    ///     cube.triangles().iter().copied().chain(within).collect(),
+    /// )?;
+    /// assert_eq!(*shell.wetted(), cube);
+    /// assert!((shell.volume() - 0.1f64.powi(3)).abs() < 1e-18);
+    /// assert!((shell.solid_volume() - 0.1f64.powi(3) * 7.0 / 8.0).abs() < 1e-18);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn wetted(&self) -> Cow<'_, TriMesh> {
+        if self.sealed.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        let is_wetted = |t: &usize| self.sealed.binary_search(&(*t as u32)).is_err();
+        let kept = (0..self.triangles.len()).filter(is_wetted);
+        let kept = kept.map(|t| self.triangles[t]).collect();
+        let (vertices, triangles) = weld::drop_unused(self.vertices.clone(), kept);
+        Cow::Owned(TriMesh {
+            vertices,
+            triangles,
+            sealed: Vec::new(),
+            ..*self
+        })
     }
 
+    /// Volume of the fluid displaced (m³), that of sealed cavities included.
+    pub fn volume(&self) -> f64 {
+        self.wetted().solid_volume()
+    }
+
+    /// Volume of the solid (m³), without cavities.
+    ///
     /// Divergence theorem with tetrahedra to the middle of the bounding box, so that a mesh far
     /// from the origin loses no digits.
-    fn signed_volume(&self) -> f64 {
+    pub fn solid_volume(&self) -> f64 {
         let [low, high] = self.bounding_box();
         let middle = scale(0.5, add(low, high));
         let six_volumes = (0..self.triangles.len()).map(|t| {
@@ -221,7 +279,7 @@ impl TriMesh {
         })
     }
 
-    /// The mesh scaled about the origin until it encloses `volume` (m³).
+    /// The mesh scaled about the origin until it displaces `volume` (m³).
     ///
     /// # Errors
     ///
@@ -245,15 +303,6 @@ impl TriMesh {
             t.swap(1, 2);
         }
         self
-    }
-
-    fn turned_outward(self) -> TriMesh {
-        if self.signed_volume() >= 0.0 {
-            return self;
-        }
-        let mut mesh = self.reversed();
-        mesh.turned = true;
-        mesh
     }
 }
 

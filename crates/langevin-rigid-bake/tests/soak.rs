@@ -146,7 +146,7 @@ fn random_bodies_are_finite_and_move_as_their_energy_lets_them() {
                 rolled: 0,
             };
             let shape = shape(&mut dice);
-            let triangles = 60 + dice.among(200);
+            let triangles = 64 + dice.among(200);
             let fluid = [Fluid::AIR, Fluid::WATER, HONEY][dice.among(3)];
             let density = dice.between(1.0, 1e4);
             let spec = BodySpec {

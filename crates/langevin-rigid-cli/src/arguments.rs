@@ -350,6 +350,10 @@ pub(crate) struct Repair {
     /// Simplify to about N triangles, keeping the volume.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..))]
     pub(crate) triangles: Option<u32>,
+    /// In place of all this, wrap everything in one closed surface that closes gaps up to about this size (m)
+    /// and leaves out what is inside: for open shells, inner walls and parts that meet.
+    #[arg(long, value_name = "SIZE", value_parser = positive, conflicts_with_all = ["weld", "fill", "thickness", "largest"])]
+    pub(crate) wrap: Option<f64>,
     /// Of several components keep the one of the largest surface.
     #[arg(long)]
     pub(crate) largest: bool,

@@ -29,7 +29,7 @@ impl Fall {
             Ok(Ending::Ground) => "ground",
             Ok(Ending::Time) => "time",
             Ok(Ending::Stopped) => "interrupted",
-            Err(StepError::Diverged { .. }) => "diverged",
+            Err(_) => "diverged",
         }
     }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use langevin_rigid_bake::TriMesh;
-use langevin_rigid_bake::mesh::{Options, Step, Unrepaired, repair as mend};
+use langevin_rigid_bake::mesh::{Balance, Options, Step, Unrepaired, repair as mend};
 use langevin_rigid_formats::files;
 use langevin_rigid_formats::mesh::{LengthUnit, MeshFormat, parse_mesh, write_obj, write_stl};
 use serde::Serialize;
@@ -22,6 +22,32 @@ struct Report {
     written: bool,
     triangles: Option<usize>,
     volume: Option<f64>,
+    balance: Option<BalanceReport>,
+    warnings: Vec<String>,
+}
+
+/// Areas and volumes of [`Balance`] as shares.
+#[derive(Serialize)]
+pub(crate) struct BalanceReport {
+    lost_share_of_area_given: f64,
+    made_share_of_area: f64,
+    volume_share_of_convex_hull: f64,
+    text: String,
+}
+
+impl BalanceReport {
+    pub(crate) fn new(balance: &Balance) -> Self {
+        Self {
+            lost_share_of_area_given: balance.lost_share(),
+            made_share_of_area: balance.made_share(),
+            volume_share_of_convex_hull: balance.hull_share(),
+            text: balance.to_string(),
+        }
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
 }
 
 #[derive(Serialize)]
@@ -52,6 +78,7 @@ pub(crate) fn repair(options: &Repair, bars: &Bars) -> Result<()> {
         weld: options.weld,
         fill: options.fill,
         thickness: options.thickness,
+        wrap: options.wrap,
         triangles: options.triangles.map(|n| n as usize),
         largest: options.largest,
     };
@@ -69,7 +96,12 @@ pub(crate) fn repair(options: &Repair, bars: &Bars) -> Result<()> {
         written: written.is_ok(),
         triangles: written.as_ref().ok().map(|body| body.triangles().len()),
         volume: written.as_ref().ok().map(TriMesh::volume),
+        balance: repaired.balance.as_ref().map(BalanceReport::new),
+        warnings: repaired.balance.map_or_else(Vec::new, |b| b.warnings()),
     };
+    for warning in &report.warnings {
+        eprintln!("warning: {warning}");
+    }
     let text = match options.json {
         true => serde_json::to_string_pretty(&report)? + "\n",
         false => lines(&report, &options.out),
@@ -113,6 +145,10 @@ fn lines(report: &Report, out: &Path) -> String {
     let mut text = String::new();
     for step in &report.steps {
         text += &step.text;
+        text.push('\n');
+    }
+    if let Some(balance) = report.balance.as_ref().filter(|_| !report.steps.is_empty()) {
+        text += &balance.text;
         text.push('\n');
     }
     if report.steps.is_empty() && report.written {

@@ -4,8 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use langevin_rigid::{
-    Ending, Hull, Integrator, Model, NoiseStream, State, StepError, Stepper, TurbulenceSource,
-    UnitSystem, run,
+    Ending, Hull, Integrator, Model, NoiseStream, State, Stepper, TurbulenceSource, UnitSystem, run,
 };
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::advance::advance;
@@ -191,7 +190,7 @@ impl Setting {
             Ok(Ending::Stopped) => return None,
             Ok(Ending::Ground) => "ground",
             Ok(Ending::Time) => "time",
-            Err(StepError::Diverged { .. }) => "diverged",
+            Err(_) => "diverged",
         };
         Some(Fall {
             seed,

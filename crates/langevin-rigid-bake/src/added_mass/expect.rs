@@ -75,6 +75,7 @@ pub struct Thinnest {
 ///
 /// [`AddedMassError::TooLarge`] for more triangles than `options` allow.
 pub fn expected(mesh: &TriMesh, options: &Options) -> Result<Expected, AddedMassError> {
+    let mesh = &*mesh.wetted();
     check_size(mesh.triangles().len(), options)?;
     let body = Discretized::new(mesh, options, &())?;
     check_size(body.triangles.len(), options)?;

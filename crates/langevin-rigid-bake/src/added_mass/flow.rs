@@ -49,11 +49,13 @@ impl Flow {
         let w = Form::new(hierarchical, &panels, &pairs, &mut sums, progress)?;
         let loads = load::loads(&panels, &sums, w.operator());
         let single_layer = single_layer_energy(&panels.panels, &sums);
+        let components = panels.components();
         let zero = vec![[0.0; 6]; loads.len()];
         let system = System {
             w: w.operator(),
             loads: &loads,
             vertices: &panels.vertices,
+            components: &components,
             thickness,
         };
         let solution = system.solve(zero, &Cancel::new(progress, "potentials", 1))?;
@@ -133,13 +135,20 @@ struct System<'a> {
     w: &'a dyn Operator,
     loads: &'a [Six],
     vertices: &'a [Vec3],
+    /// The component of each.
+    components: &'a [u32],
     thickness: Thickness,
 }
 
 impl System<'_> {
     fn solve(&self, start: Vec<Six>, cancel: &Cancel) -> Result<Solution, AddedMassError> {
-        let preconditioner =
-            Preconditioner::new(self.w, self.vertices, self.thickness.sheet, cancel)?;
+        let preconditioner = Preconditioner::new(
+            self.w,
+            self.vertices,
+            self.components,
+            self.thickness.sheet,
+            cancel,
+        )?;
         solve(self.w, self.loads, start, &preconditioner, cancel)
     }
 }
@@ -157,11 +166,13 @@ fn nested_energy(
     let kept: Vec<usize> = members.iter().map(|m| m[0].0 as usize).collect();
     let loads: Vec<Six> = members.iter().map(|m| combined(m, layered.loads)).collect();
     let vertices: Vec<Vec3> = kept.iter().map(|&v| layered.vertices[v]).collect();
+    let components: Vec<u32> = kept.iter().map(|&v| layered.components[v]).collect();
     let w = w.restricted(&members);
     let system = System {
         w: w.as_ref(),
         loads: &loads,
         vertices: &vertices,
+        components: &components,
         ..*layered
     };
     let solution = system.solve(kept.iter().map(|&v| x[v]).collect(), cancel)?;

@@ -85,20 +85,24 @@ impl Flow {
     }
 }
 
-/// phi = -x with zero mean over the surface, in the caller's order of vertices.
+/// phi = -x with zero mean over each component of the surface, in the caller's order of vertices.
 fn potentials(panels: &Panels, x: &[Six], unit: f64) -> Vec<Six> {
-    let mut mean = [0.0; 6];
-    let mut area = 0.0;
+    let components = panels.components();
+    let count = components.iter().max().map_or(0, |&c| c as usize + 1);
+    let mut mean = vec![[0.0; 6]; count];
+    let mut area = vec![0.0; count];
     for panel in &panels.panels {
-        area += panel.area;
+        let component = components[panel.corners[0] as usize] as usize;
+        area[component] += panel.area;
         for v in panel.corners {
             for c in 0..6 {
-                mean[c] += panel.area / 3.0 * x[v as usize][c];
+                mean[component][c] += panel.area / 3.0 * x[v as usize][c];
             }
         }
     }
     let mut potentials = vec![[0.0; 6]; x.len()];
-    for (x, &origin) in x.iter().zip(&panels.vertex_origin) {
+    for ((x, &origin), &component) in x.iter().zip(&panels.vertex_origin).zip(&components) {
+        let (mean, area) = (mean[component as usize], area[component as usize]);
         let scale = |c: usize| if c < 3 { unit } else { unit * unit };
         potentials[origin as usize] = std::array::from_fn(|c| scale(c) * (mean[c] / area - x[c]));
     }

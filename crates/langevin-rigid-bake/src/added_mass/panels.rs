@@ -1,5 +1,6 @@
 //! The triangles as the integrals need them: centred, scaled, in spatial order.
 
+use crate::mesh::parts::vertex_components;
 use crate::mesh::vector::{add, bounding_box, cross, dot, norm, scale, sub};
 
 pub(super) type Vec3 = [f64; 3];
@@ -70,6 +71,14 @@ pub(super) struct Panels {
 }
 
 impl Panels {
+    /// The component of the surface that each vertex is in.
+    pub(super) fn components(&self) -> Vec<u32> {
+        vertex_components(
+            self.vertices.len(),
+            self.panels.iter().map(|panel| panel.corners),
+        )
+    }
+
     pub(super) fn new(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Panels {
         let vertex_origin = curve_order(vertices);
         let mut rank = vec![0u32; vertices.len()];

@@ -40,9 +40,12 @@ pub(super) enum Preconditioner {
 
 impl Preconditioner {
     /// The one for a body with these vertices.
+    ///
+    /// A constant on one component of the surface has no energy; `components` tells them apart.
     pub(super) fn new(
         w: &dyn Operator,
         vertices: &[Vec3],
+        components: &[u32],
         sheet: bool,
         cancel: &Cancel,
     ) -> Result<Preconditioner, AddedMassError> {
@@ -57,8 +60,8 @@ impl Preconditioner {
             ));
         }
         Ok(Preconditioner::TwoLevel {
-            factor: SparseFactor::new(w, vertices, cancel)?,
-            coarse: Coarse::new(w, vertices, cancel)?,
+            factor: SparseFactor::new(w, vertices, components, cancel)?,
+            coarse: Coarse::new(w, vertices, components, cancel)?,
         })
     }
 
@@ -88,15 +91,17 @@ impl SparseFactor {
     fn new(
         w: &dyn Operator,
         vertices: &[Vec3],
+        components: &[u32],
         cancel: &Cancel,
     ) -> Result<SparseFactor, AddedMassError> {
         let groups: Vec<Group> = vertices.chunks(GROUP).map(Group::new).collect();
+        let small = small_components(components);
         let rows: Vec<SparseRow> = (0..vertices.len())
             .into_par_iter()
             .with_min_len(16)
             .map(|i| {
                 cancel.check()?;
-                factor_row(w, vertices, &groups, i).ok_or(NOT_POSITIVE)
+                factor_row(w, vertices, &groups, &small, i).ok_or(NOT_POSITIVE)
             })
             .collect::<Result<_, _>>()?;
         let columns = transposed(&rows, vertices.len());
@@ -113,13 +118,23 @@ fn factor_row(
     w: &dyn Operator,
     vertices: &[Vec3],
     groups: &[Group],
+    small: &[Option<u32>],
     i: usize,
 ) -> Option<SparseRow> {
     let mut members = nearest(vertices, groups, i, NEIGHBOURS);
     members.retain(|&j| j <= i);
     members.sort_unstable();
     let m = members.len();
-    let factor = Cholesky::new(w.block(&members), m)?;
+    let mut block = w.block(&members);
+    let energy = block[m * m - 1];
+    for (row, &j) in members.iter().enumerate() {
+        for (column, &k) in members.iter().enumerate() {
+            if small[j].is_some() && small[j] == small[k] {
+                block[row * m + column] += energy;
+            }
+        }
+    }
+    let factor = Cholesky::new(block, m)?;
     let mut y = vec![0.0; m];
     y[m - 1] = 1.0;
     factor.solve(&mut y);
@@ -131,6 +146,14 @@ fn factor_row(
             .map(|(&j, y)| (j as u32, y / norm))
             .collect(),
     )
+}
+
+/// The component of each vertex, if all of it may be among the neighbours, whose constants then need an energy.
+fn small_components(components: &[u32]) -> Vec<Option<u32>> {
+    let mut sizes = vec![0; components.len()];
+    components.iter().for_each(|&c| sizes[c as usize] += 1);
+    let small = |&c: &u32| (sizes[c as usize] <= NEIGHBOURS).then_some(c);
+    components.iter().map(small).collect()
 }
 
 /// A run of vertices, for passing over many at once.
@@ -218,7 +241,12 @@ pub(super) struct Coarse {
 }
 
 impl Coarse {
-    fn new(w: &dyn Operator, vertices: &[Vec3], cancel: &Cancel) -> Result<Coarse, AddedMassError> {
+    fn new(
+        w: &dyn Operator,
+        vertices: &[Vec3],
+        components: &[u32],
+        cancel: &Cancel,
+    ) -> Result<Coarse, AddedMassError> {
         let most = w.most_coarse();
         let seeds = spread_out(vertices, (vertices.len() / COARSENING).min(most));
         let interpolation: Vec<SparseRow> = vertices
@@ -236,7 +264,13 @@ impl Coarse {
             .collect();
         // Constants are among the coarse functions and have no energy: give them the mean one.
         let mean = (0..m).map(|i| a[i * m + i]).sum::<f64>() / (m * m) as f64;
-        a.iter_mut().for_each(|entry| *entry += mean);
+        for shares in shares_in_components(&members, components) {
+            for &(i, s) in &shares {
+                for &(j, t) in &shares {
+                    a[i as usize * m + j as usize] += mean * (s * t);
+                }
+            }
+        }
         Ok(Coarse {
             interpolation,
             members,
@@ -258,6 +292,25 @@ impl Coarse {
             }
         }
     }
+}
+
+/// For each component of the surface the coarse functions on it, and what share of each is there.
+fn shares_in_components(members: &[SparseRow], components: &[u32]) -> Vec<SparseRow> {
+    let count = components.iter().max().map_or(0, |&c| c as usize + 1);
+    let mut shares: Vec<SparseRow> = vec![Vec::new(); count];
+    for (function, row) in (0..).zip(members) {
+        let mut weights: SparseRow = row
+            .iter()
+            .map(|&(v, w)| (components[v as usize], w))
+            .collect();
+        weights.sort_by_key(|&(component, _)| component);
+        let sum = |run: &[(u32, f64)]| run.iter().map(|&(_, w)| w).sum::<f64>();
+        let total = sum(&weights);
+        for run in weights.chunk_by(|a, b| a.0 == b.0) {
+            shares[run[0].0 as usize].push((function, sum(run) / total));
+        }
+    }
+    shares
 }
 
 /// Vertices each of which is the farthest from those before it.

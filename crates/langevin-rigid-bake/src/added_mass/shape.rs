@@ -30,6 +30,7 @@ impl AddedMass {
     /// How far the tensor may be from that of `body`, a mesh close to the one it was solved on, as the
     /// fine one of a [proxy](TriMesh::proxy) is.
     pub fn shape_error(&self, body: &TriMesh) -> ShapeError {
+        let body = &*body.wetted();
         let slips = self.slips();
         let search = Search::new(&slips);
         let areas = vertex_areas(body);

@@ -195,3 +195,27 @@ proptest! {
         prop_assert!((0..3).all(|k| (got[k] - sorted[k]).abs() < 1e-13));
     }
 }
+
+#[test]
+fn a_cavity_floats_and_weighs_nothing() {
+    let brick = |size| Shape::Box { size }.mesh(12).unwrap();
+    let (outer, inner) = (brick([0.4, 0.2, 0.1]), brick([0.1, 0.1, 0.05]));
+    let n = outer.vertices().len() as u32;
+    let off = inner.vertices().iter().map(|v| [v[0] + 0.1, v[1], v[2]]);
+    let within = inner.triangles().iter().map(|t| t.map(|v| v + n));
+    let shell = TriMesh::new(
+        outer.vertices().iter().copied().chain(off).collect(),
+        outer.triangles().iter().copied().chain(within).collect(),
+    );
+    let got = MassProperties::of(&shell.unwrap(), 1000.0).unwrap();
+    let close = |got: f64, want: f64| assert!((got - want).abs() < 1e-12, "{got} for {want}");
+    close(got.volume, 8e-3);
+    close(got.mass, 7.5);
+    close(got.density(), 937.5);
+    got.centroid.into_iter().for_each(|x| close(x, 0.0));
+    let x = -0.5 * 0.1 / 7.5;
+    close(got.centre_of_mass[0], x);
+    let whole = 8.0 / 12.0 * (0.16 + 0.01);
+    let hole = 0.5 / 12.0 * (0.01 + 0.0025) + 0.5 * 0.01;
+    close(got.inertia[1][1], whole - hole - 7.5 * x * x);
+}

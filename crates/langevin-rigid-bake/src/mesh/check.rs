@@ -1,8 +1,9 @@
 //! Every check a triangle soup must pass to be a body.
 
 use super::edges::{Side, by_edge, disagree, sorted_sides};
+use super::intersect::meetings;
 use super::parts::{components, fans, windings};
-use super::vector::{add, cross, dot, norm, scale, sub};
+use super::vector::{add, bounding_box, cross, dot, norm, scale, sub};
 use super::{EdgeSite, MeshError, TriMesh};
 
 /// Twice the area over the square of the longest edge, below which a triangle has no area: ten
@@ -13,7 +14,7 @@ const FLAT: f64 = 1e-10;
 /// Greatest deviation of RᵀR from the unit matrix in a transformation.
 const ORTHOGONAL: f64 = 1e-9;
 
-/// Checks all but the volume.
+/// Checks that the surface is closed and has two sides.
 pub(super) fn closed_manifold(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
@@ -23,8 +24,7 @@ pub(super) fn closed_manifold(
     manifold_edges(vertices, &sides)?;
     no_open_edges(vertices, &sides)?;
     oriented(vertices, triangles.len(), &sides)?;
-    manifold_vertices(vertices, triangles)?;
-    connected(triangles.len(), &sides)
+    manifold_vertices(vertices, triangles)
 }
 
 /// Checks each triangle by itself, and that none is there twice.
@@ -185,38 +185,54 @@ pub(super) fn manifold_vertices(
     }
 }
 
-/// Checks that every triangle is reached from every other by crossing edges.
-fn connected(triangle_count: usize, sides: &[Side]) -> Result<(), MeshError> {
-    let roots = components(triangle_count, sides);
-    let Some(triangle) = roots.iter().position(|&r| r != roots[0]) else {
-        return Ok(());
-    };
-    let mut sizes = vec![0usize; triangle_count];
-    for r in roots {
-        sizes[r] += 1;
+/// Checks that each component encloses something.
+pub(super) fn volumes(mesh: &TriMesh, root_of: &[usize], volumes: &[f64]) -> Result<(), MeshError> {
+    let mut areas = vec![0.0; volumes.len()];
+    let mut bounds = vec![bounding_box(&[]); volumes.len()];
+    for (t, &root) in root_of.iter().enumerate() {
+        areas[root] += mesh.area(t);
+        let [low, high] = bounding_box(&mesh.corners(t));
+        for k in 0..3 {
+            bounds[root][0][k] = bounds[root][0][k].min(low[k]);
+            bounds[root][1][k] = bounds[root][1][k].max(high[k]);
+        }
     }
-    sizes.retain(|&n| n > 0);
-    sizes.sort_unstable_by(|a, b| b.cmp(a));
-    let count = sizes.len();
-    sizes.truncate(8);
-    Err(MeshError::SeveralComponents {
-        count,
-        sizes,
-        triangle,
-    })
+    let size = |root: usize| sub(bounds[root][1], bounds[root][0]);
+    let is_flat = |&root: &usize| {
+        let encloses = volumes[root].abs() > FLAT * areas[root] * norm(size(root));
+        root_of[root] == root && !encloses
+    };
+    match (0..volumes.len()).find(is_flat) {
+        None => Ok(()),
+        Some(root) => Err(MeshError::ZeroVolume {
+            volume: volumes[root],
+            size: size(root),
+        }),
+    }
 }
 
-/// Checks that the surface encloses something.
-pub(super) fn volume(mesh: &TriMesh) -> Result<(), MeshError> {
-    let [low, high] = mesh.bounding_box();
-    let size = sub(high, low);
-    let volume = mesh.signed_volume();
-    let encloses = volume.abs() > FLAT * mesh.surface_area() * norm(size);
-    if encloses {
-        Ok(())
+/// Checks that no triangles pass through each other or lie on each other.
+pub(super) fn apart(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    let meetings = meetings(vertices, triangles);
+    let Some(first) = meetings.first() else {
+        return Ok(());
+    };
+    let [a, b] = first.triangles;
+    let roots = components(triangles.len(), &sorted_sides(triangles));
+    let (count, position) = (meetings.len(), first.position);
+    Err(if roots[a] == roots[b] {
+        MeshError::SelfIntersection {
+            triangles: [a, b],
+            position,
+            count,
+        }
     } else {
-        Err(MeshError::ZeroVolume { volume, size })
-    }
+        MeshError::PartsMeet {
+            triangles: [a, b],
+            position,
+            count,
+        }
+    })
 }
 
 /// Checks the parts of a similarity transformation.

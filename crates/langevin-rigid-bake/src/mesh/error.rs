@@ -133,18 +133,6 @@ pub enum MeshError {
         /// How many there are.
         count: usize,
     },
-    /// The triangles fall into parts that are not connected.
-    #[error(
-        "the mesh has {count} separate parts, of {sizes:?} triangles (the largest first), triangle {triangle} begins the second: join them into one surface by a boolean union, delete what is inside, or make each a body of its own"
-    )]
-    SeveralComponents {
-        /// How many parts there are.
-        count: usize,
-        /// Triangles of each, largest first, at most the first eight.
-        sizes: Vec<usize>,
-        /// The first triangle not in the part of triangle 0.
-        triangle: usize,
-    },
     /// The surface is closed but encloses nothing.
     #[error("the closed surface encloses no volume ({volume:.3e} m³ within a box of {:.3e} by {:.3e} by {:.3e} m): it is flattened; give a sheet as one layer with a thickness (`--thickness LENGTH` on the command line, `thickness = LENGTH` in a scene)", size[0], size[1], size[2])]
     ZeroVolume {
@@ -152,6 +140,32 @@ pub enum MeshError {
         volume: f64,
         /// Edges of the bounding box (m).
         size: [f64; 3],
+    },
+    /// The surface passes through itself, or lies on itself.
+    #[error(
+        "the surface passes through itself: {count} triangles meet others, the first triangle {} with {} at ({:.6}, {:.6}, {:.6}) m: let `langevin-rigid check` say what mends it, or untangle it in the program that made it",
+        triangles[0], triangles[1], position[0], position[1], position[2]
+    )]
+    SelfIntersection {
+        /// The first triangle that meets another, and that one.
+        triangles: [usize; 2],
+        /// A point they have in common (m).
+        position: [f64; 3],
+        /// How many triangles meet others.
+        count: usize,
+    },
+    /// Closed parts overlap or touch.
+    #[error(
+        "parts overlap or touch: {count} triangles meet others, the first triangle {} with {} of another part at ({:.6}, {:.6}, {:.6}) m: let `langevin-rigid repair` make one surface of them",
+        triangles[0], triangles[1], position[0], position[1], position[2]
+    )]
+    PartsMeet {
+        /// The first triangle that meets another, and that one.
+        triangles: [usize; 2],
+        /// A point they have in common (m).
+        position: [f64; 3],
+        /// How many triangles meet others.
+        count: usize,
     },
     /// The thickness of a sheet is not a positive length.
     #[error(

@@ -1,57 +1,76 @@
 //! Which component is inside which.
 
-use super::vector::{bounding_box, cross, dot, norm, sub};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 
-/// Components that are looked at; scans have debris by the thousand.
-const MOST: usize = 16;
+use super::vector::bounding_box;
 
-/// For each root in `order`, largest first, the place there of the smallest closed component around it.
-pub(super) fn containers(
+/// For each of the `roots`, the closed components around its first corner, by their place among the `roots`.
+///
+/// `root_of` gives the root, the lowest triangle, of each triangle's component. Surfaces that meet are inside
+/// each other or not, as their first corners happen to be.
+pub(super) fn around(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
+    root_of: &[usize],
     roots: &[usize],
-    order: &[usize],
-    closed: &[bool],
-) -> Vec<Option<usize>> {
-    let few = &order[..order.len().min(MOST)];
-    let mut corners = vec![Vec::new(); few.len()];
-    for (t, root) in triangles.iter().zip(roots) {
-        if few.len() > 1
-            && let Some(at) = few.iter().position(|r| r == root)
-        {
-            corners[at].push(t.map(|v| vertices[v as usize]));
+    closed: impl Fn(usize) -> bool,
+) -> Vec<Vec<usize>> {
+    if roots.len() < 2 {
+        return vec![Vec::new(); roots.len()];
+    }
+    let mut places = vec![usize::MAX; triangles.len()];
+    for (place, &root) in roots.iter().enumerate() {
+        places[root] = place;
+    }
+    let corners = |t: usize| triangles[t].map(|v| vertices[v as usize]);
+    let shadow = |t: usize| {
+        let [low, high] = bounding_box(&corners(t));
+        let flat = |p: [f64; 3]| [p[1], p[2]];
+        GeomWithData::new(Rectangle::from_corners(flat(low), flat(high)), t)
+    };
+    let shadows = (0..triangles.len()).filter(|&t| closed(root_of[t]));
+    let tree = RTree::bulk_load(shadows.map(shadow).collect());
+    let surrounding = |(place, &root): (usize, &usize)| {
+        let point = corners(root)[0];
+        let under = tree.locate_in_envelope_intersecting(AABB::from_point([point[1], point[2]]));
+        let mut hit: Vec<usize> = under
+            .map(|shadow| shadow.data)
+            .filter(|&t| places[root_of[t]] != place && is_hit(point, corners(t)))
+            .map(|t| places[root_of[t]])
+            .collect();
+        hit.sort_unstable();
+        let odd = hit
+            .chunk_by(|a, b| a == b)
+            .filter(|hits| hits.len() % 2 == 1);
+        odd.map(|hits| hits[0]).collect()
+    };
+    roots.iter().enumerate().map(surrounding).collect()
+}
+
+/// Whether the ray from `point` along x hits a triangle. A ray through an edge or a vertex hits a closed surface
+/// as often as one beside it: edges count as half open, the same from both of their triangles.
+fn is_hit(point: [f64; 3], corners: [[f64; 3]; 3]) -> bool {
+    let [px, py, pz] = point;
+    let mut inside = false;
+    for k in 0..3 {
+        let (mut a, mut b) = (corners[k], corners[(k + 1) % 3]);
+        if (a[1], a[2]) > (b[1], b[2]) {
+            std::mem::swap(&mut a, &mut b);
+        }
+        if (a[1] > py) != (b[1] > py) {
+            let at = a[2] + (py - a[1]) / (b[1] - a[1]) * (b[2] - a[2]);
+            inside ^= at > pz;
         }
     }
-    let holds = |outer: usize, inner: usize| {
-        outer != inner && closed[few[outer]] && surrounds(&corners[outer], &corners[inner])
-    };
-    (0..order.len())
-        .map(|inner| {
-            let around = 0..if inner < few.len() { few.len() } else { 0 };
-            around.rev().find(|&outer| holds(outer, inner))
-        })
-        .collect()
+    inside && height(corners, [py, pz]).is_some_and(|x| x > px)
 }
 
-/// Whether a closed surface goes around another: around its box and its first corner.
-fn surrounds(outer: &[[[f64; 3]; 3]], inner: &[[[f64; 3]; 3]]) -> bool {
-    let Some(&[point, ..]) = inner.first() else {
-        return false;
-    };
-    let [low, high] = bounding_box(outer.as_flattened());
-    let [inner_low, inner_high] = bounding_box(inner.as_flattened());
-    let boxed = (0..3).all(|k| low[k] < inner_low[k] && inner_high[k] < high[k]);
-    boxed && winding_number(outer, point).abs() > 0.5
-}
-
-/// How often a closed surface goes around a point (A. van Oosterom, J. Strackee, 1983).
-fn winding_number(triangles: &[[[f64; 3]; 3]], point: [f64; 3]) -> f64 {
-    let solid_angle = |corners: &[[f64; 3]; 3]| {
-        let [a, b, c] = corners.map(|v| sub(v, point));
-        let [la, lb, lc] = [a, b, c].map(norm);
-        let below = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-        2.0 * libm::atan2(dot(a, cross(b, c)), below)
-    };
-    let sum: f64 = triangles.iter().map(solid_angle).sum();
-    sum / (4.0 * std::f64::consts::PI)
+/// The x of a triangle's plane over a point of the plane x = 0.
+fn height([a, b, c]: [[f64; 3]; 3], [y, z]: [f64; 2]) -> Option<f64> {
+    let side = |p: [f64; 3], q: [f64; 3]| (p[1] - y) * (q[2] - z) - (p[2] - z) * (q[1] - y);
+    let weights = [side(b, c), side(c, a), side(a, b)];
+    let sum: f64 = weights.iter().sum();
+    let x = (weights[0] * a[0] + weights[1] * b[0] + weights[2] * c[0]) / sum;
+    x.is_finite().then_some(x)
 }

@@ -46,6 +46,29 @@ impl SignedParts {
     }
 }
 
+/// For each vertex the number of its component, counted in the order of their lowest vertices.
+pub(crate) fn vertex_components(
+    vertex_count: usize,
+    triangles: impl Iterator<Item = [u32; 3]>,
+) -> Vec<u32> {
+    let mut parts = SignedParts::new(vertex_count);
+    for [a, b, c] in triangles.map(|t| t.map(|v| v as usize)) {
+        parts.join(a, b, false);
+        parts.join(b, c, false);
+    }
+    let mut numbers = vec![0; vertex_count];
+    let mut count = 0;
+    for v in 0..vertex_count {
+        let root = parts.root(v).0;
+        if root == v {
+            numbers[v] = count;
+            count += 1;
+        }
+        numbers[v] = numbers[root];
+    }
+    numbers
+}
+
 /// For each triangle the lowest triangle that is reached from it by crossing edges of exactly two.
 pub(super) fn components(triangle_count: usize, sides: &[Side]) -> Vec<usize> {
     let mut parts = SignedParts::new(triangle_count);

@@ -1,6 +1,6 @@
 //! A coarser mesh in place of a fine one.
 
-use super::{MeshError, TriMesh};
+use super::{MeshError, TriMesh, repair};
 use crate::mesh::vector::{add, bounding_box, scale, sub};
 
 /// Why there is no proxy.
@@ -40,19 +40,39 @@ impl TriMesh {
     /// # Errors
     /// [`ProxyError`]: too few triangles are asked for, or the result is not the surface of a body.
     pub fn proxy(&self, triangles: usize) -> Result<TriMesh, ProxyError> {
+        self.simplified(triangles, |_| Ok(()))
+    }
+
+    /// A proxy that `accept` finds no fault with.
+    pub(super) fn simplified(
+        &self,
+        triangles: usize,
+        accept: fn(&TriMesh) -> Result<(), MeshError>,
+    ) -> Result<TriMesh, ProxyError> {
         if triangles < 4 {
             return Err(ProxyError::TooFew(triangles));
         }
         if self.triangles.len() <= triangles {
             return Ok(self.clone());
         }
-        let kept = collapsed(&self.vertices, &self.triangles, triangles);
-        let simplified = kept.len();
-        let body =
-            TriMesh::new(self.vertices.clone(), kept).map_err(|error| ProxyError::NoBody {
-                triangles: simplified,
-                error,
-            })?;
+        let mut wanted = triangles;
+        let body = loop {
+            let kept = collapsed(&self.vertices, &self.triangles, wanted);
+            let simplified = kept.len();
+            let found = closed_or_mended(&self.vertices, kept)
+                .and_then(|body| accept(&body).map(|()| body));
+            match found {
+                Ok(body) => break body,
+                Err(error) if simplified >= self.triangles.len() / 2 => {
+                    return Err(ProxyError::NoBody {
+                        triangles: simplified,
+                        error,
+                    });
+                }
+                // Thin parts fall together; finer triangles may spare them.
+                Err(_) => wanted += wanted.div_ceil(2),
+            }
+        };
         // About any point; a point inside moves the surface least.
         let [low, high] = bounding_box(&body.vertices);
         let centre = scale(0.5, add(low, high));
@@ -64,6 +84,14 @@ impl TriMesh {
             ..body
         })
     }
+}
+
+/// The body, after what collapsed to nothing is taken out if need be.
+fn closed_or_mended(vertices: &[[f64; 3]], triangles: Vec<[u32; 3]>) -> Result<TriMesh, MeshError> {
+    TriMesh::closed(vertices.to_vec(), triangles.clone()).or_else(|_| {
+        let (vertices, triangles) = repair::without_remnants(vertices.to_vec(), triangles);
+        TriMesh::closed(vertices, triangles)
+    })
 }
 
 /// Triangles over some of the vertices, about `wanted` of them.

@@ -3,6 +3,7 @@
 //! [`repair`] takes triangles as they come and does to them, in a fixed order, what [`Step`] lists. A
 //! body comes out as it went in.
 
+mod balance;
 mod degenerate;
 mod duplicates;
 mod holes;
@@ -12,6 +13,7 @@ mod report;
 mod split;
 mod weld;
 
+pub use balance::Balance;
 pub(super) use duplicates::first_copies;
 pub(super) use orient::{minority, signed_volumes};
 pub(super) use parts::areas;
@@ -19,7 +21,8 @@ pub use report::{Repaired, Step, Unrepaired};
 
 use super::boundary::open_sides;
 use super::edges::sorted_sides;
-use super::vector::{bounding_box, norm, sub};
+use super::vector::{bounding_box, cross, norm, sub};
+use super::wrap::{Wrap, wrap};
 use super::{TriMesh, check, weld as welding};
 use crate::progress::Progress;
 
@@ -46,6 +49,9 @@ pub struct Options {
     pub thickness: Option<f64>,
     /// Triangles to simplify to.
     pub triangles: Option<usize>,
+    /// In place of all this wrap the triangles: one closed surface around them that closes gaps up to about
+    /// this size (m) and leaves out what is inside.
+    pub wrap: Option<f64>,
     /// Keep the component with the largest surface and drop the others.
     pub largest: bool,
 }
@@ -71,8 +77,9 @@ struct Soup {
 /// triangles.remove(7);
 /// triangles[20].swap(0, 1);
 /// let repaired = repair(cube.vertices(), &triangles, &Options::default(), &());
-/// let filled = Step::Filled { holes: 1, edges: 3, triangles: 1 };
-/// assert_eq!(repaired.steps, [Step::Turned { triangles: 1 }, filled]);
+/// assert_eq!(repaired.steps[0], Step::Turned { triangles: 1 });
+/// assert!(matches!(repaired.steps[1], Step::Filled { holes: 1, edges: 3, triangles: 1, .. }));
+/// assert!(repaired.balance.unwrap().made_share() < 0.01);
 /// assert!((repaired.body?.volume() / cube.volume() - 1.0).abs() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -91,8 +98,11 @@ pub fn repair(
         triangles: triangles.to_vec(),
         steps: Vec::new(),
     };
+    let given = sound_area(vertices, triangles);
     let body = mend(&mut soup, options, progress);
+    let balance = body.as_ref().ok();
     Repaired {
+        balance: balance.map(|body| Balance::new(given, &soup.steps, body)),
         steps: soup.steps,
         body,
     }
@@ -103,6 +113,12 @@ fn mend(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<TriMesh, Unrepaired> {
+    if let Some(size) = options.wrap {
+        progress.report("wrapping", 0.0);
+        drop_unusable(soup, options);
+        let body = soup.wrapped(size)?;
+        return soup.simplified(body, options.triangles);
+    }
     let stages: [(&str, Stage); 11] = [
         ("dropping the unusable", drop_unusable),
         ("welding", weld::weld),
@@ -116,7 +132,8 @@ fn mend(
         ("components", parts::keep_largest),
         ("splitting", split::split),
     ];
-    if check::closed_manifold(&soup.vertices, &soup.triangles).is_err() {
+    let closed = check::closed_manifold(&soup.vertices, &soup.triangles).is_ok();
+    if !closed || options.largest {
         for (at, (name, stage)) in stages.iter().enumerate() {
             if progress.cancelled() {
                 return Err(Unrepaired::Cancelled);
@@ -157,11 +174,17 @@ impl Soup {
         };
         let body = body.map_err(|error| report::left(&self.vertices, &self.triangles, error))?;
         self.did(Step::InsideOut {
-            triangles: if body.was_turned() {
-                body.triangles().len()
-            } else {
-                0
-            },
+            triangles: body.turned,
+        });
+        Ok(body)
+    }
+
+    fn wrapped(&mut self, size: f64) -> Result<TriMesh, Unrepaired> {
+        let Wrap { body, made } = wrap(&self.vertices, &self.triangles, size)?;
+        self.did(Step::Wrapped {
+            size,
+            triangles: body.triangles().len(),
+            made,
         });
         Ok(body)
     }
@@ -175,11 +198,36 @@ impl Soup {
         let Some(wanted) = triangles.filter(|&n| n < from) else {
             return Ok(body);
         };
-        let body = body.proxy(wanted)?;
+        let apart = |body: &TriMesh| check::apart(&body.vertices, &body.triangles);
+        let body = body.simplified(wanted, apart)?;
         let to = body.triangles().len();
         self.did(Step::Simplified { from, to });
         Ok(body)
     }
+}
+
+/// The surface without triangles that have no area or lie back to back.
+pub(super) fn without_remnants(
+    vertices: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let mut soup = Soup {
+        vertices,
+        triangles,
+        steps: Vec::new(),
+    };
+    let stages: [Stage; 6] = [
+        drop_unusable,
+        degenerate::resolve,
+        duplicates::drop,
+        degenerate::resolve,
+        duplicates::drop,
+        split::split,
+    ];
+    for stage in stages {
+        stage(&mut soup, &Options::default());
+    }
+    (soup.vertices, soup.triangles)
 }
 
 /// Drops triangles whose corners are no places, and all vertices without a triangle.
@@ -196,6 +244,22 @@ fn drop_unusable(soup: &mut Soup, _: &Options) {
     soup.did(Step::Unused {
         vertices: before[1] - soup.vertices.len(),
     });
+}
+
+/// Area of the triangles that can be used, each once (m²).
+fn sound_area(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> f64 {
+    let first = first_copies(triangles);
+    let is_sound =
+        |t: &usize| first[*t] == *t && triangles[*t].iter().all(|&v| is_place(vertices, v));
+    let sound = (0..triangles.len()).filter(is_sound);
+    sound
+        .map(|t| area_of(triangles[t].map(|v| vertices[v as usize])))
+        .sum()
+}
+
+/// Area of a triangle (m²).
+fn area_of([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    0.5 * norm(cross(sub(b, a), sub(c, a)))
 }
 
 /// Whether a vertex exists and its coordinates can be multiplied with each other.

@@ -2,7 +2,8 @@
 
 use super::boundary::{Hole, loops, open_sides};
 use super::edges::{Side, by_edge, sorted_sides};
-use super::nesting::containers;
+use super::intersect::meetings;
+use super::nesting::around;
 use super::parts::{fans, windings};
 use super::repair::{WELD, areas, first_copies, is_place, minority, signed_volumes};
 use super::seams::twins;
@@ -14,7 +15,7 @@ use crate::progress::Progress;
 /// What a mesh is and what is wrong with it.
 ///
 /// Topology is that of the sound triangles: those that can be used, have area and are there for the first
-/// time. Self-intersection is not looked for.
+/// time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Survey {
     /// Triangles given.
@@ -25,7 +26,7 @@ pub struct Survey {
     pub bounds: [[f64; 3]; 2],
     /// Area of all sound triangles (m²).
     pub area: f64,
-    /// Volume enclosed (m³), each component positive; it means nothing while there are holes.
+    /// Volume of the solid (m³), cavities subtracted; it means nothing while there are holes or parts meet.
     pub volume: f64,
     /// Triangles with a vertex that does not exist, or a coordinate that is not finite or beyond 1e60 m.
     pub unusable: usize,
@@ -47,6 +48,8 @@ pub struct Survey {
     pub flipped: usize,
     /// An edge at which a surface of one side only runs into itself.
     pub one_sided: Option<EdgeSite>,
+    /// Triangles that meet others, passing through them or lying on them.
+    pub meeting: Faults,
     /// Components, the largest area first.
     pub components: Vec<Component>,
     /// Why it is no body, or the body.
@@ -82,9 +85,24 @@ pub struct Component {
     pub area: f64,
     /// Volume under them (m³), negative where the normals point inward; nothing where it is open.
     pub volume: Option<f64>,
-    /// The smallest component around this one, by its place in [`Survey::components`]; looked for among
-    /// the largest sixteen.
+    /// How many closed components are around it: the walls of cavities have an odd number.
+    pub depth: usize,
+    /// The smallest of them, by its place in [`Survey::components`].
     pub inside: Option<usize>,
+}
+
+impl Component {
+    /// Whether its normals point into the solid.
+    pub fn is_inside_out(&self) -> bool {
+        self.volume
+            .is_some_and(|volume| (volume < 0.0) != (self.depth % 2 == 1))
+    }
+
+    /// What it adds to the solid (m³), negative for a cavity; nothing where it is open.
+    fn solid(&self) -> Option<f64> {
+        let sign = if self.depth % 2 == 1 { -1.0 } else { 1.0 };
+        self.volume.map(|volume| sign * volume.abs())
+    }
 }
 
 /// Surveys triangles over vertices (m), whatever they are; nothing where `progress` was cancelled.
@@ -122,17 +140,19 @@ pub fn survey(
     let (parts, one_sided) = windings(sound.triangles.len(), &sides);
     let turned = minority(&parts);
     let components = components(&sound, &parts, &turned, &sides);
-    step("body", 0.8)?;
+    step("body", 0.6)?;
+    let body = TriMesh::new(vertices.to_vec(), triangles.to_vec());
+    step("intersections", 0.8)?;
+    let meeting = match &body {
+        Ok(_) => Faults::default(),
+        Err(_) => meeting(&sound),
+    };
     Some(Survey {
         triangles: triangles.len(),
         vertices: vertices.len(),
         bounds: sound.bounds,
         area: components.iter().map(|c| c.area).sum(),
-        volume: components
-            .iter()
-            .filter_map(|c| c.volume)
-            .map(f64::abs)
-            .sum(),
+        volume: components.iter().filter_map(Component::solid).sum(),
         unusable: sound.unusable,
         unused_vertices: sound.unused,
         degenerate: sound.degenerate,
@@ -143,8 +163,9 @@ pub fn survey(
         non_manifold_vertices: non_manifold_vertices(&sound, &sides),
         flipped: turned.iter().filter(|turn| **turn).count(),
         one_sided: one_sided.map(|side| check::site(&sound.vertices, &side)),
+        meeting,
         components,
-        body: TriMesh::new(vertices.to_vec(), triangles.to_vec()),
+        body,
     })
 }
 
@@ -220,6 +241,14 @@ fn non_manifold_edges(vertices: &[[f64; 3]], sides: &[Side]) -> Faults {
     }
 }
 
+fn meeting(sound: &Sound) -> Faults {
+    let meetings = meetings(&sound.vertices, &sound.triangles);
+    Faults {
+        count: meetings.len(),
+        first: meetings.first().map(|meeting| meeting.position),
+    }
+}
+
 /// Vertices with more than one fan, where those that only meet at a non-manifold edge count as one.
 fn non_manifold_vertices(sound: &Sound, sides: &[Side]) -> Faults {
     let joined = by_edge(sides).flat_map(|edge| edge.windows(2).map(|pair| [&pair[0], &pair[1]]));
@@ -248,7 +277,7 @@ fn components(
     }
     let roots: Vec<usize> = parts.iter().map(|part| part.0).collect();
     let areas = areas(&sound.vertices, &agreeing, &roots);
-    let volumes = signed_volumes(&sound.vertices, &agreeing, parts);
+    let volumes = signed_volumes(&sound.vertices, &agreeing, &roots);
     let mut closed = vec![true; roots.len()];
     for edge in by_edge(sides).filter(|edge| edge.len() != 2) {
         edge.iter()
@@ -258,15 +287,18 @@ fn components(
     roots.iter().for_each(|&root| counts[root] += 1);
     let mut order: Vec<usize> = (0..roots.len()).filter(|&r| counts[r] > 0).collect();
     order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]));
-    let inside = containers(&sound.vertices, &agreeing, &roots, &order, &closed);
+    let around = around(&sound.vertices, &agreeing, &roots, &order, |root| {
+        closed[root]
+    });
     order
         .iter()
-        .zip(inside)
-        .map(|(&root, inside)| Component {
+        .zip(around)
+        .map(|(&root, around)| Component {
             triangles: counts[root],
             area: areas[root],
             volume: closed[root].then_some(volumes[root]),
-            inside,
+            depth: around.len(),
+            inside: around.last().copied(),
         })
         .collect()
 }

@@ -113,14 +113,8 @@ fn two_tetrahedra(map: [u32; 4]) -> Result<TriMesh, MeshError> {
 
 #[test]
 fn touching_and_separate_parts_are_told_apart() {
-    assert_eq!(
-        two_tetrahedra([4, 5, 6, 7]).unwrap_err(),
-        MeshError::SeveralComponents {
-            count: 2,
-            sizes: vec![4, 4],
-            triangle: 4
-        }
-    );
+    let apart = two_tetrahedra([4, 5, 6, 7]).unwrap();
+    assert!((apart.volume() - 1.0 / 3.0).abs() < 1e-15 && !apart.was_turned());
     assert!(matches!(
         two_tetrahedra([4, 0, 6, 7]).unwrap_err(),
         MeshError::NonManifoldVertex {
@@ -376,4 +370,49 @@ fn transforms_keep_the_body_and_refuse_nonsense() {
         1.0
     ));
     assert!(mesh.scaled_to_volume(-1.0).is_err());
+}
+
+#[test]
+fn a_body_of_parts_knows_its_cavities() {
+    let ball = Shape::Ellipsoid {
+        semi_axes: [1.0; 3],
+    }
+    .mesh(320)
+    .unwrap();
+    // Inside out of each other; the innermost is solid again, and one is beside.
+    let balls = [(1.0, 0.0), (0.6, 0.2), (0.3, 0.1), (0.5, 2.0)];
+    let n = ball.vertices().len() as u32;
+    let vertices = balls.iter().flat_map(|&(size, x)| {
+        let place = move |v: &[f64; 3]| add(scale(size, *v), [x, 0.0, 0.0]);
+        ball.vertices().iter().map(place)
+    });
+    let triangles = (0..4).flat_map(|k| ball.triangles().iter().map(move |t| t.map(|v| v + k * n)));
+    let mesh = TriMesh::new(vertices.collect(), triangles.collect()).unwrap();
+    assert!(mesh.was_turned());
+    let ratio = |volume: f64| volume / ball.volume();
+    assert!((ratio(mesh.volume()) - (1.0 + 0.125)).abs() < 1e-12);
+    assert!((ratio(mesh.solid_volume()) - (1.0 - 0.216 + 0.027 + 0.125)).abs() < 1e-12);
+    assert_eq!(mesh.wetted().triangles().len(), 640);
+    let away = mesh
+        .transformed(vector::IDENTITY, [5.0, 0.0, 0.0], 2.0)
+        .unwrap();
+    assert!((ratio(away.volume()) - 8.0 * 1.125).abs() < 1e-11);
+    // As written to a file, normals out of the solid.
+    let again = TriMesh::new(mesh.vertices().to_vec(), mesh.triangles().to_vec()).unwrap();
+    assert!(!again.was_turned());
+    assert_eq!(again.solid_volume(), mesh.solid_volume());
+}
+
+#[test]
+fn each_part_must_enclose_something() {
+    let flat = two_tetrahedra_of(|v| v[7] = [-2.6, 0.4, 0.0]);
+    assert!(matches!(flat, Err(MeshError::ZeroVolume { .. })));
+}
+
+fn two_tetrahedra_of(change: impl FnOnce(&mut Vec<[f64; 3]>)) -> Result<TriMesh, MeshError> {
+    tetrahedron_with(|v, t| {
+        v.extend(CORNERS.map(|c| add(c, [-3.0, 0.0, 0.0])));
+        t.extend(TETRAHEDRON.map(|t| t.map(|i| i + 4)));
+        change(v);
+    })
 }

@@ -1,13 +1,16 @@
 //! Which repair mends a mesh: each is tried.
 
 use langevin_rigid_bake::TriMesh;
-use langevin_rigid_bake::mesh::{Options, Step, Survey, Unrepaired, repair};
+use langevin_rigid_bake::mesh::{Balance, Options, Step, Survey, Unrepaired, repair};
 use langevin_rigid_formats::mesh::RawMesh;
 
 use crate::bars::Bars;
 
 /// Thickness of a sheet that is tried, as a share of the diagonal of its box.
 const TRIED_THICKNESS: f64 = 1e-3;
+
+/// Size of a wrap that is tried, as a share of the diagonal.
+const TRIED_WRAP: f64 = 0.02;
 
 /// Share of the area below which a component is debris.
 const DEBRIS: f64 = 0.01;
@@ -20,6 +23,8 @@ pub(super) struct Remedy {
     pub(super) sheet_flags: Option<String>,
     pub(super) steps: Vec<Step>,
     pub(super) body: Option<TriMesh>,
+    /// What is lost and made on the way to it.
+    pub(super) balance: Option<Balance>,
     /// Why the mildest repair gives none.
     pub(super) left: Option<Unrepaired>,
 }
@@ -31,7 +36,8 @@ impl Remedy {
         let mut remedy = Remedy::default();
         for (flags, options) in tries(survey) {
             let is_sheet = options.thickness.is_some();
-            if remedy.flags.is_some() && !is_sheet {
+            // A wrap is the last resort.
+            if (remedy.flags.is_some() && !is_sheet) || bars.interrupted() {
                 continue;
             }
             let repaired = repair(&raw.vertices, &raw.triangles, &options, bars);
@@ -44,6 +50,7 @@ impl Remedy {
                 Ok(body) => {
                     remedy.flags = Some(flags);
                     remedy.steps = repaired.steps;
+                    remedy.balance = repaired.balance.filter(|_| !is_sheet);
                     // A sheet's thickness is for its owner to say, and so is what comes of it.
                     remedy.body = Some(body).filter(|_| !is_sheet);
                     if options.fill.is_some() {
@@ -71,6 +78,12 @@ fn tries(survey: &Survey) -> Vec<(String, Options)> {
         thickness: Some(TRIED_THICKNESS * diagonal2.sqrt()).filter(|t| *t > 0.0),
         ..mild
     };
+    let size = two_digits(TRIED_WRAP * diagonal2.sqrt());
+    let wrap = Options {
+        wrap: Some(size).filter(|size| *size > 0.0),
+        ..Options::default()
+    };
+    let wrapped = format!(" --wrap {size}");
     let of_largest = others_are_debris(survey);
     [
         (String::new(), mild),
@@ -87,7 +100,12 @@ fn tries(survey: &Survey) -> Vec<(String, Options)> {
         [Some((flags, options)), of_largest.then_some(with_largest)]
     })
     .flatten()
+    .chain([(wrapped, wrap)])
     .collect()
+}
+
+fn two_digits(x: f64) -> f64 {
+    format!("{x:.1e}").parse().unwrap_or(x)
 }
 
 /// Whether all components but the largest are small or inside it, so that dropping them is not to lose a

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::remedy::Remedy;
 use crate::arguments::Check;
-use crate::repair::StepReport;
+use crate::repair::{BalanceReport, StepReport};
 
 /// Holes and components that are listed.
 const LISTED: usize = 5;
@@ -31,7 +31,7 @@ pub(super) struct Report {
     size_if_mm: [f64; 3],
     unit_hint: Option<String>,
     area: f64,
-    /// Nothing while there are holes.
+    /// Of the solid, without cavities; nothing while there are holes or parts meet.
     volume: Option<f64>,
     holes: usize,
     largest_holes: Vec<HoleReport>,
@@ -49,6 +49,9 @@ pub(super) struct Report {
     first_non_manifold_edge: Option<[f64; 3]>,
     non_manifold_vertices: usize,
     first_non_manifold_vertex: Option<[f64; 3]>,
+    /// Triangles that pass through others or lie on them.
+    meeting: usize,
+    first_meeting: Option<[f64; 3]>,
     components: usize,
     largest_components: Vec<ComponentReport>,
     /// Of the mesh if it is ready, else of what the repair makes of it.
@@ -59,6 +62,8 @@ pub(super) struct Report {
     /// The same, if the hole is the rim of a sheet.
     repair_of_sheet: Option<String>,
     repair_steps: Vec<StepReport>,
+    repair_balance: Option<BalanceReport>,
+    repair_warnings: Vec<String>,
     left: Option<String>,
 }
 
@@ -75,6 +80,8 @@ struct ComponentReport {
     area: f64,
     volume: Option<f64>,
     inside: Option<usize>,
+    /// Whether it is the wall of a cavity.
+    cavity: bool,
 }
 
 #[derive(Serialize)]
@@ -97,7 +104,8 @@ impl Report {
         let too_large = foretold.as_ref().is_some_and(Result::is_err);
         let fewer = if too_large { FEWER } else { "" };
         let flags = remedy.flags.clone().or(too_large.then(String::new));
-        let closed = survey.holes.is_empty() && survey.non_manifold_edges.count == 0;
+        let faults = [&survey.non_manifold_edges, &survey.meeting];
+        let closed = survey.holes.is_empty() && faults.iter().all(|f| f.count == 0);
         let Faults {
             count: non_manifold_edges,
             first: first_non_manifold_edge,
@@ -133,15 +141,14 @@ impl Report {
             unwelded_distance: survey.seams.distance,
             weld_tolerance: survey.seams.tolerance,
             flipped: survey.flipped,
-            inside_out: survey
-                .components
-                .iter()
-                .any(|c| c.volume.is_some_and(|v| v < 0.0)),
+            inside_out: survey.components.iter().any(Component::is_inside_out),
             one_sided: survey.one_sided.is_some(),
             non_manifold_edges,
             first_non_manifold_edge,
             non_manifold_vertices,
             first_non_manifold_vertex,
+            meeting: survey.meeting.count,
+            first_meeting: survey.meeting.first,
             components: survey.components.len(),
             largest_components: survey
                 .components
@@ -157,6 +164,11 @@ impl Report {
                 .sheet_flags
                 .as_ref()
                 .map(|flags| command(options, flags)),
+            repair_balance: remedy.balance.as_ref().map(BalanceReport::new),
+            repair_warnings: remedy
+                .balance
+                .as_ref()
+                .map_or_else(Vec::new, |balance| balance.warnings()),
             repair_steps: remedy.steps.iter().map(StepReport::new).collect(),
             left: remedy
                 .flags
@@ -184,6 +196,7 @@ impl ComponentReport {
             area: component.area,
             volume: component.volume,
             inside: component.inside,
+            cavity: component.depth % 2 == 1,
         }
     }
 }

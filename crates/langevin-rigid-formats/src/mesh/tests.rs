@@ -359,7 +359,7 @@ fn obj_seams_are_welded_but_closed_files_are_left_alone() {
     }
     let read = parse(text.as_bytes(), MeshFormat::Obj).unwrap();
     assert_eq!((read.vertices.len(), read.body().is_ok()), (8, true));
-    // Two closed boxes that touch along a face stay two.
+    // Two closed boxes that touch along a face are two, which do not make one body.
     let shifted = body.transformed(
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [1.0, 0.0, 0.0],
@@ -373,10 +373,7 @@ fn obj_seams_are_welded_but_closed_files_are_left_alone() {
         two.extend(format!("f {} {} {}\n", a + 9, b + 9, c + 9).bytes());
     }
     let read = parse(&two, MeshFormat::Obj).unwrap();
-    assert!(matches!(
-        read.body(),
-        Err(MeshError::SeveralComponents { count: 2, .. })
-    ));
+    assert!(matches!(read.body(), Err(MeshError::PartsMeet { .. })));
 }
 
 #[test]

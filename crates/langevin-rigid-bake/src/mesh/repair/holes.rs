@@ -1,6 +1,6 @@
 //! Small holes are filled.
 
-use super::{FILL, Options, SMALL_HOLE, Soup, Step, WIDE_HOLE, parts};
+use super::{FILL, Options, SMALL_HOLE, Soup, Step, WIDE_HOLE, area_of, parts};
 use crate::mesh::boundary::{loops, open_sides, rings};
 use crate::mesh::edges::{Side, of_edge, sorted_sides};
 use crate::mesh::parts::components;
@@ -35,12 +35,15 @@ pub(super) fn fill(soup: &mut Soup, options: &Options) {
             }
         }
     }
-    let triangles = soup.triangles.len() - before;
-    soup.did(Step::Filled {
+    let filled = &soup.triangles[before..];
+    let area = |t: &[u32; 3]| area_of(t.map(|v| soup.vertices[v as usize]));
+    let step = Step::Filled {
         holes,
         edges,
-        triangles,
-    });
+        triangles: filled.len(),
+        area: filled.iter().map(area).sum(),
+    };
+    soup.did(step);
 }
 
 impl Soup {

@@ -1,12 +1,13 @@
 //! Windings that agree, and normals that point outward.
 
 use super::{Options, Soup, Step};
+use crate::mesh::body::depths;
 use crate::mesh::edges::{by_edge, sorted_sides};
 use crate::mesh::parts::windings;
 use crate::mesh::vector::{add, bounding_box, cross, dot, scale, sub};
 
 /// Turns the fewer triangles of each component that disagree with the more, then closed components whose
-/// normals point inward. A surface with one side only is left as it is.
+/// normals point into the solid. A surface with one side only is left as it is.
 pub(super) fn agree(soup: &mut Soup, _: &Options) {
     let sides = sorted_sides(&soup.triangles);
     let (parts, one_sided) = windings(soup.triangles.len(), &sides);
@@ -20,10 +21,13 @@ pub(super) fn agree(soup: &mut Soup, _: &Options) {
     for edge in by_edge(&sides).filter(|edge| edge.len() == 1) {
         closed[parts[edge[0].triangle as usize].0] = false;
     }
-    let volumes = signed_volumes(&soup.vertices, &soup.triangles, &parts);
-    let inward: Vec<bool> = parts
+    let roots: Vec<usize> = parts.iter().map(|part| part.0).collect();
+    let volumes = signed_volumes(&soup.vertices, &soup.triangles, &roots);
+    let depths = depths(&soup.vertices, &soup.triangles, &roots, |root| closed[root]);
+    let is_inside_out = |root: usize| (volumes[root] < 0.0) != (depths[root] % 2 == 1);
+    let inward: Vec<bool> = roots
         .iter()
-        .map(|&(root, _)| closed[root] && volumes[root] < 0.0)
+        .map(|&root| closed[root] && is_inside_out(root))
         .collect();
     let triangles = soup.turn(&inward);
     soup.did(Step::InsideOut { triangles });
@@ -57,12 +61,12 @@ pub(in crate::mesh) fn minority(parts: &[(usize, bool)]) -> Vec<bool> {
 pub(in crate::mesh) fn signed_volumes(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
-    parts: &[(usize, bool)],
+    roots: &[usize],
 ) -> Vec<f64> {
     let [low, high] = bounding_box(vertices);
     let middle = scale(0.5, add(low, high));
     let mut volumes = vec![0.0; triangles.len()];
-    for (t, &(root, _)) in triangles.iter().zip(parts) {
+    for (t, &root) in triangles.iter().zip(roots) {
         let [a, b, c] = t.map(|v| sub(vertices[v as usize], middle));
         volumes[root] += dot(a, cross(b, c)) / 6.0;
     }

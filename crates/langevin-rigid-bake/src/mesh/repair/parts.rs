@@ -1,9 +1,8 @@
 //! One component of several.
 
-use super::{Options, Soup, Step};
+use super::{Options, Soup, Step, area_of};
 use crate::mesh::edges::sorted_sides;
 use crate::mesh::parts::components;
-use crate::mesh::vector::{cross, norm, sub};
 use crate::mesh::weld::drop_unused;
 
 /// Keeps the component of the largest surface, if asked to.
@@ -23,7 +22,12 @@ pub(super) fn keep_largest(soup: &mut Soup, options: &Options) {
     let kept = kept.map(|t| soup.triangles[t]).collect();
     (soup.vertices, soup.triangles) = drop_unused(std::mem::take(&mut soup.vertices), kept);
     let triangles = before - soup.triangles.len();
-    soup.did(Step::Components { dropped, triangles });
+    let area = areas.iter().sum::<f64>() - largest.map_or(0.0, |root| areas[root]);
+    soup.did(Step::Components {
+        dropped,
+        triangles,
+        area,
+    });
 }
 
 /// Area of each component (m²), at the number of its first triangle.
@@ -34,8 +38,7 @@ pub(in crate::mesh) fn areas(
 ) -> Vec<f64> {
     let mut areas = vec![0.0; triangles.len()];
     for (t, &root) in triangles.iter().zip(roots) {
-        let [a, b, c] = t.map(|v| vertices[v as usize]);
-        areas[root] += 0.5 * norm(cross(sub(b, a), sub(c, a)));
+        areas[root] += area_of(t.map(|v| vertices[v as usize]));
     }
     areas
 }

@@ -2,15 +2,18 @@
 
 use std::fmt;
 
+use super::Balance;
 use crate::mesh::boundary::{Hole, loops, open_sides};
 use crate::mesh::edges::sorted_sides;
-use crate::mesh::{MeshError, ProxyError, TriMesh};
+use crate::mesh::{MeshError, ProxyError, TriMesh, WrapError};
 
 /// What became of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Repaired {
     /// What was done, in this order.
     pub steps: Vec<Step>,
+    /// What was lost and made on the way to the body.
+    pub balance: Option<Balance>,
     /// The body, or why there is none yet.
     pub body: Result<TriMesh, Unrepaired>,
 }
@@ -75,6 +78,8 @@ pub enum Step {
         dropped: usize,
         /// Their triangles.
         triangles: usize,
+        /// The area of these (m²).
+        area: f64,
     },
     /// Filled holes.
     Filled {
@@ -84,6 +89,8 @@ pub enum Step {
         edges: usize,
         /// Triangles added.
         triangles: usize,
+        /// The area of these (m²).
+        area: f64,
     },
     /// Thickened an open sheet.
     Thickened {
@@ -91,6 +98,15 @@ pub enum Step {
         edges: usize,
         /// The thickness (m).
         thickness: f64,
+    },
+    /// Wrapped the triangles in a closed surface.
+    Wrapped {
+        /// Size of the gaps that it closes (m).
+        size: f64,
+        /// Its triangles.
+        triangles: usize,
+        /// Area of what closes gaps (m²).
+        made: f64,
     },
     /// Simplified the body, keeping its volume.
     Simplified {
@@ -116,6 +132,7 @@ impl Step {
             Step::Components { .. } => "components",
             Step::Filled { .. } => "fill",
             Step::Thickened { .. } => "thicken",
+            Step::Wrapped { .. } => "wrap",
             Step::Simplified { .. } => "simplify",
         }
     }
@@ -136,6 +153,7 @@ impl Step {
             Step::Split { edges, vertices } => edges + vertices,
             Step::Filled { holes, .. } => holes,
             Step::Thickened { edges, .. } => edges,
+            Step::Wrapped { triangles, .. } => triangles,
             Step::Simplified { from, to } => from - to,
         }
     }
@@ -177,21 +195,34 @@ impl fmt::Display for Step {
                 f,
                 "took apart what touched along {edges} edges or in points, by {vertices} more vertices"
             ),
-            Step::Components { dropped, triangles } => write!(
+            Step::Components {
+                dropped,
+                triangles,
+                area,
+            } => write!(
                 f,
-                "dropped {dropped} smaller components of {triangles} triangles together"
+                "dropped {dropped} smaller components of {triangles} triangles and {area:.3e} m^2 together"
             ),
             Step::Filled {
                 holes,
                 edges,
                 triangles,
+                area,
             } => write!(
                 f,
-                "filled {holes} holes of {edges} edges together with {triangles} triangles"
+                "filled {holes} holes of {edges} edges together with {triangles} triangles of {area:.3e} m^2"
             ),
             Step::Thickened { edges, thickness } => write!(
                 f,
                 "thickened the open sheet, whose rim has {edges} edges, to {thickness} m"
+            ),
+            Step::Wrapped {
+                size,
+                triangles,
+                made,
+            } => write!(
+                f,
+                "wrapped all in a surface of {triangles} triangles that closes gaps up to {size:.3e} m, with {made:.3e} m^2 across gaps"
             ),
             Step::Simplified { from, to } => {
                 write!(
@@ -221,19 +252,12 @@ pub enum Unrepaired {
         /// The one with the longest perimeter.
         largest: Hole,
     },
-    /// Several components.
-    #[error(
-        "it has {count} separate components, of {sizes:?} triangles (the largest first): keep the one of largest surface with `--largest`, join them by a boolean union, or make each a body of its own"
-    )]
-    Components {
-        /// How many.
-        count: usize,
-        /// Triangles of each, largest first, at most the first eight.
-        sizes: Vec<usize>,
-    },
     /// Nothing that could be mended unasked.
     #[error("it is no body still: {0}")]
     NoBody(MeshError),
+    /// It cannot be wrapped.
+    #[error(transparent)]
+    Wrap(#[from] WrapError),
     /// It cannot be simplified that far.
     #[error(transparent)]
     Proxy(#[from] ProxyError),
@@ -252,9 +276,6 @@ pub(super) fn left(vertices: &[[f64; 3]], triangles: &[[u32; 3]], error: MeshErr
                 Some(largest) => Unrepaired::Open { count, largest },
                 None => Unrepaired::NoBody(error),
             }
-        }
-        MeshError::SeveralComponents { count, sizes, .. } => {
-            Unrepaired::Components { count, sizes }
         }
         error => Unrepaired::NoBody(error),
     }

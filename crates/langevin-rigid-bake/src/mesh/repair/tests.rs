@@ -65,7 +65,8 @@ fn a_missing_face_is_filled_and_a_flipped_triangle_turned() {
         [Step::Filled {
             holes: 1,
             edges: 4,
-            triangles: 2
+            triangles: 2,
+            area: 1.0
         }]
     );
     mesh.1[3].swap(0, 1);
@@ -82,11 +83,13 @@ fn a_hole_with_corners_on_a_line_is_filled_without_flat_triangles() {
         holes,
         edges,
         triangles,
+        area,
     } = steps[1]
     else {
         panic!("{steps:?}")
     };
     assert_eq!((holes, triangles), (1, edges - 2));
+    assert!((area - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -271,14 +274,15 @@ fn a_vertex_on_the_side_of_a_neighbour_becomes_one_of_its_corners() {
         }]
     );
     let steps = steps_to(&crack, 1.0);
-    assert_eq!(
+    assert!(matches!(
         steps[0],
         Step::Filled {
             holes: 1,
             edges: 3,
-            triangles: 1
-        }
-    );
+            triangles: 1,
+            area
+        } if area < 1e-15
+    ));
     assert_eq!(
         steps[1],
         Step::Degenerate {
@@ -308,9 +312,9 @@ fn needles_collapse() {
 #[test]
 fn components_are_not_chosen_unasked() {
     let both = together(&shifted(&cube(12), [3.0, 0.0, 0.0], 0.1), &cube(300));
-    let error = mended(&both, &Options::default()).body.unwrap_err();
-    assert!(matches!(&error, Unrepaired::Components { count: 2, sizes } if sizes == &[300, 12]));
-    assert!(error.to_string().contains("--largest"));
+    let kept = mended(&both, &Options::default());
+    assert_eq!(kept.steps, []);
+    assert!((kept.body.unwrap().volume() - 1.001).abs() < 1e-12);
     let repaired = mended(
         &both,
         &Options {
@@ -318,14 +322,39 @@ fn components_are_not_chosen_unasked() {
             ..Options::default()
         },
     );
-    assert_eq!(
-        repaired.steps,
-        [Step::Components {
+    let [
+        Step::Components {
             dropped: 1,
-            triangles: 12
-        }]
-    );
+            triangles: 12,
+            area,
+        },
+    ] = repaired.steps[..]
+    else {
+        panic!("{:?}", repaired.steps)
+    };
+    assert!((area - 0.06).abs() < 1e-12);
     assert!((repaired.body.unwrap().volume() - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn what_is_lost_and_made_is_said() {
+    // Of a cube without a face a sixth is made up, and with another cube of half its size a fifth is lost.
+    let mut open = cube(12);
+    open.1
+        .retain(|t| !t.iter().all(|&v| mesh_x(&open.0, v) > 0.4));
+    let both = together(&open, &shifted(&cube(12), [3.0, 0.0, 0.0], 0.5));
+    let largest = Options {
+        largest: true,
+        ..Options::default()
+    };
+    let balance = mended(&both, &largest).balance.unwrap();
+    assert!((balance.made_share() - 1.0 / 6.0).abs() < 1e-12);
+    assert!((balance.lost_share() - 1.5 / 6.5).abs() < 1e-12);
+    assert!((balance.hull_share() - 1.0).abs() < 1e-12);
+    assert_eq!(balance.warnings().len(), 2);
+    let kept = mended(&cube(300), &Options::default()).balance.unwrap();
+    assert_eq!((kept.lost, kept.made), (0.0, 0.0));
+    assert!(kept.warnings().is_empty());
 }
 
 #[test]
@@ -344,8 +373,7 @@ fn what_touches_is_taken_apart() {
             }],
             "{by:?}"
         );
-        let error = repaired.body.unwrap_err();
-        assert!(matches!(&error, Unrepaired::Components { sizes, .. } if sizes == &[12, 12]));
+        assert!((repaired.body.unwrap().volume() - 2.0).abs() < 1e-12);
         let largest = mended(
             &welded,
             &Options {
@@ -519,7 +547,7 @@ proptest! {
         let body = repaired.body.unwrap();
         let again = repair(body.vertices(), body.triangles(), &Options::default(), &());
         prop_assert!(again.steps.is_empty());
-        prop_assert_eq!(again.body.unwrap(), TriMesh { turned: false, ..body });
+        prop_assert_eq!(again.body.unwrap(), TriMesh { turned: 0, ..body });
     }
 }
 

@@ -41,12 +41,11 @@ impl Report {
             "volume",
             match self.volume {
                 Some(volume) => format!("{volume:.6e} m^3"),
-                None => "has no meaning while the surface is not closed".into(),
+                None => "has no meaning while the surface is not closed or meets itself".into(),
             },
         );
         self.faults(&mut line);
         self.parts(&mut line);
-        line("intersections", "not looked for".into());
         self.outlook(&mut line);
         self.verdict(&mut line);
         out
@@ -118,6 +117,12 @@ impl Report {
             self.non_manifold_vertices,
             format!("vertices where parts touch{vertex}"),
         );
+        let meeting = first(self.first_meeting).unwrap_or_default();
+        fault(
+            "intersections",
+            self.meeting,
+            format!("triangles that meet others{meeting}"),
+        );
         if self.inside_out {
             line("inside out", "yes; that is mended on the way".into());
         }
@@ -136,7 +141,10 @@ impl Report {
                 Some(volume) => format!("{volume:.4e} m^3"),
                 None => "open".into(),
             };
-            let inside = part.inside.map(|k| format!(", inside component {}", k + 1));
+            let role = if part.cavity { "a cavity" } else { "a part" };
+            let inside = part
+                .inside
+                .map(|k| format!(", {role} inside component {}", k + 1));
             let (n, inside) = (part.triangles, inside.unwrap_or_default());
             line(
                 "",
@@ -199,6 +207,12 @@ impl Report {
             line("repair", command.clone());
             for step in &self.repair_steps {
                 line("", step.text().to_owned());
+            }
+            if let Some(balance) = &self.repair_balance {
+                line("", balance.text().to_owned());
+            }
+            for warning in &self.repair_warnings {
+                line("", format!("warning: {warning}"));
             }
         }
         if let Some(command) = &self.repair_of_sheet {

@@ -1,0 +1,165 @@
+//! Where a surface runs through itself, or lies on itself.
+
+use rayon::prelude::*;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::vector::{add, bounding_box, cross, dot, norm, scale, sub};
+
+/// Share of the diagonal of the bounding box within which surfaces count as touching: the rounding of single
+/// precision.
+const TOUCH: f64 = 1e-7;
+
+/// Two triangles that meet other than along common edges.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Meeting {
+    pub(super) triangles: [usize; 2],
+    /// A point that both have (m).
+    pub(super) position: [f64; 3],
+}
+
+type Corners = [[f64; 3]; 3];
+type Boxed = GeomWithData<Rectangle<[f64; 3]>, usize>;
+
+/// For each triangle that meets others, the first of them.
+///
+/// Triangles meet where an edge of one passes through the other, or where they lie on each other. Surfaces
+/// that only share edges or points do not meet, whether or not they share the vertices.
+pub(super) fn meetings(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Meeting> {
+    let places: Vec<Corners> = triangles
+        .iter()
+        .map(|t| t.map(|v| vertices[v as usize]))
+        .collect();
+    let [low, high] = bounding_box(places.as_flattened());
+    let touch = TOUCH * norm(sub(high, low));
+    let boxed = |(t, corners): (usize, &Corners)| {
+        let [low, high] = bounding_box(corners);
+        let [low, high] = [low.map(|x| x - touch), high.map(|x| x + touch)];
+        Boxed::new(Rectangle::from_corners(low, high), t)
+    };
+    let tree = RTree::bulk_load(places.iter().enumerate().map(boxed).collect());
+    let facets: Vec<Facet> = places.iter().map(Facet::new).collect();
+    let first = |t: usize| {
+        let [low, high] = bounding_box(&places[t]);
+        let near = tree.locate_in_envelope_intersecting(AABB::from_corners(low, high));
+        near.map(|other| other.data)
+            .filter(|&other| other != t)
+            .filter_map(|other| {
+                let position = meeting(&facets[t], &facets[other], touch)?;
+                Some((other, position))
+            })
+            .min_by_key(|&(other, _)| other)
+            .map(|(other, position)| Meeting {
+                triangles: [t, other],
+                position,
+            })
+    };
+    (0..places.len())
+        .into_par_iter()
+        .with_min_len(256)
+        .filter_map(first)
+        .collect()
+}
+
+/// A triangle with its plane and, in it, the inward normals of its sides.
+struct Facet {
+    corners: Corners,
+    normal: [f64; 3],
+    /// That of the side from corner k to the next.
+    inward: Corners,
+}
+
+impl Facet {
+    fn new(corners: &Corners) -> Facet {
+        let [a, b, c] = *corners;
+        let normal = unit_or_zero(cross(sub(b, a), sub(c, a)));
+        let inward = [[a, b], [b, c], [c, a]].map(|[p, q]| unit_or_zero(cross(normal, sub(q, p))));
+        Facet {
+            corners: *corners,
+            normal,
+            inward,
+        }
+    }
+
+    fn heights(&self, other: &Facet) -> [f64; 3] {
+        other
+            .corners
+            .map(|p| dot(self.normal, sub(p, self.corners[0])))
+    }
+
+    /// Distance of a point of the plane from the nearest side, positive inside (m).
+    fn depth(&self, p: [f64; 3]) -> f64 {
+        let from_side = |k: usize| dot(self.inward[k], sub(p, self.corners[k]));
+        from_side(0).min(from_side(1)).min(from_side(2))
+    }
+
+    /// Where an edge of the other goes through this one. An end on the plane counts as above it, so that touching
+    /// from outside is not passing through; then it must be well inside, since surfaces may share edges.
+    fn pierced(&self, other: &Facet, touch: f64) -> Option<[f64; 3]> {
+        let heights = self.heights(other);
+        let above = heights.map(|h| h > -touch);
+        let crossing = |k: usize| {
+            let next = (k + 1) % 3;
+            if above[k] == above[next] {
+                return None;
+            }
+            let [from, to] = [k, next].map(|k| match above[k] {
+                true => heights[k].max(0.0),
+                false => heights[k],
+            });
+            let [p, q] = [k, next].map(|k| other.corners[k]);
+            let x = add(p, scale(from / (from - to), sub(q, p)));
+            let least = if from.max(to) > touch { -touch } else { touch };
+            (self.depth(x) > least).then_some(x)
+        };
+        (0..3).find_map(crossing)
+    }
+
+    /// Whether the other lies in the plane of this one and on it.
+    fn covers(&self, other: &Facet, touch: f64) -> bool {
+        let in_plane = self.heights(other).iter().all(|h| h.abs() <= touch);
+        in_plane && self.overlaps_in_plane(other, touch) && other.overlaps_in_plane(self, touch)
+    }
+
+    /// Whether no side of this one has all of the other, but for `touch`, beyond it.
+    fn overlaps_in_plane(&self, other: &Facet, touch: f64) -> bool {
+        let separates = |k: usize| {
+            let beyond = |p: [f64; 3]| dot(self.inward[k], sub(p, self.corners[k])) <= touch;
+            other.corners.into_iter().all(beyond)
+        };
+        !(0..3).any(separates)
+    }
+}
+
+fn unit_or_zero(a: [f64; 3]) -> [f64; 3] {
+    let length = norm(a);
+    if length > 0.0 {
+        scale(1.0 / length, a)
+    } else {
+        [0.0; 3]
+    }
+}
+
+fn meeting(a: &Facet, b: &Facet, touch: f64) -> Option<[f64; 3]> {
+    let through = a.pierced(b, touch).or_else(|| b.pierced(a, touch));
+    through.or_else(|| {
+        let on = a.covers(b, touch) || b.covers(a, touch);
+        on.then(|| {
+            let [smaller, _] = if extent(a) < extent(b) {
+                [a, b]
+            } else {
+                [b, a]
+            };
+            let [p, q, r] = smaller.corners;
+            scale(1.0 / 3.0, add(p, add(q, r)))
+        })
+    })
+}
+
+fn extent(facet: &Facet) -> f64 {
+    let [a, b, c] = facet.corners;
+    norm(cross(sub(b, a), sub(c, a)))
+}
+
+#[cfg(test)]
+mod tests;
