@@ -2,7 +2,7 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::equations::{Equations, Noise};
+use crate::equations::{Equations, Noise, Stepped};
 use crate::kirchhoff::Motion;
 use crate::lanes::{Doubles, Lanes, Singles};
 use crate::linalg::{each, join};
@@ -293,10 +293,14 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
     };
 
     let time = L::load_doubles(simd, &pack.time[lanes.clone()]);
-    let (after, sound) = equations.step(&before, time, dt, &noise);
+    let Stepped {
+        motion: after,
+        sound,
+        alone,
+    } = equations.step(&before, time, dt, &noise);
 
-    let sound = L::bits(sound);
-    let was = (sound != (1 << L::COUNT) - 1).then(|| pack.clone());
+    let good = L::bits(sound & !alone);
+    let was = (good != (1 << L::COUNT) - 1).then(|| pack.clone());
     store_columns(&mut pack.position, first, &after.position);
     store_columns(&mut pack.orientation, first, &after.orientation);
     store_columns(&mut pack.velocity, first, &after.xi);
@@ -305,11 +309,23 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
         pack.step[place] = pack.step[place].wrapping_add(1);
     }
     let Some(was) = was else { return };
-    for place in lanes.filter(|place| sound & (1 << (place - first)) == 0) {
+    let alone = L::bits(alone);
+    for place in lanes.filter(|place| good & (1 << (place - first)) == 0) {
         let before = was.state(place);
-        pack.set(place, &before);
-        if place < pack.taken {
-            stopped.push((pack.bodies[place], stepper.why_not(&before, dt)));
+        let noise = NoiseStream {
+            seed: pack.seed,
+            body: pack.bodies[place],
+        };
+        let mut state = before;
+        let taken = match alone & (1 << (place - first)) {
+            0 => Err(stepper.why_not(&before, dt)),
+            _ => stepper.step(&mut state, dt, &noise),
+        };
+        pack.set(place, &state);
+        if let Err(error) = taken
+            && place < pack.taken
+        {
+            stopped.push((noise.body, error));
         }
     }
 }

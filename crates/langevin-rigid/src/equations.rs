@@ -42,6 +42,16 @@ pub(crate) struct Separated<F: Shape = General, R: Real = f64> {
     pub(crate) noise: Langevin<F, R>,
 }
 
+/// What a step made.
+pub(crate) struct Stepped<R: Real> {
+    pub(crate) motion: Motion<R>,
+    /// Whether the motion is one that a body can have: finite and within [`SPEED_LIMIT`].
+    pub(crate) sound: R::Mask,
+    /// Lanes whose resistances are too stiff for the explicit scheme. Each must take the step alone; what is
+    /// here of them is of no use. The code for many lanes would double for what is seldom met.
+    pub(crate) alone: R::Mask,
+}
+
 /// The bodies' streams of noise, and where they are in them.
 pub(crate) struct Noise<R: Real> {
     pub(crate) seed: u64,
@@ -69,8 +79,7 @@ impl Equations {
 }
 
 impl<F: Shape, R: Real> Equations<F, R> {
-    /// The motion after `dt` (s), in the world, and whether it is one that a body can have: finite
-    /// and within [`SPEED_LIMIT`].
+    /// The motion after `dt` (s), in the world.
     #[inline(always)]
     pub(crate) fn step(
         &self,
@@ -78,38 +87,54 @@ impl<F: Shape, R: Real> Equations<F, R> {
         time: R,
         dt: f64,
         noise: &Noise<R>,
-    ) -> (Motion<R>, R::Mask) {
-        let motion = self.in_parts(self.relative_to_fluid(before), time, dt, noise);
+    ) -> Stepped<R> {
+        let (motion, alone) = self.in_parts(self.relative_to_fluid(before), time, dt, noise);
         let after = self.in_the_world(motion, time.of(dt));
         // Zero for a time that is finite, as in `possible`.
         let timed = !(time - time).less(time.of(0.0)) & (time - time).less(time.of(1.0));
         let sound = possible(&after) & is_unit(before.orientation) & timed;
-        (after, sound)
+        Stepped {
+            motion: after,
+            sound,
+            alone,
+        }
     }
 
-    /// The motion after `dt` (s), in as many parts as the body's rates want.
+    /// The motion after `dt` (s), in as many parts as the body's rates want, and which lanes must take it
+    /// alone.
     #[inline(always)]
-    fn in_parts(&self, mut motion: Motion<R>, start: R, dt: f64, noise: &Noise<R>) -> Motion<R> {
+    fn in_parts(
+        &self,
+        mut motion: Motion<R>,
+        start: R,
+        dt: f64,
+        noise: &Noise<R>,
+    ) -> (Motion<R>, R::Mask) {
         let whole = start.of(dt);
         let least = start.of(dt / f64::from(MOST_PARTS));
         // What rounding leaves is no part.
         let end = start.of(1e-9 * dt.abs());
         let mut left = whole;
+        let mut alone = whole.less(whole);
         for number in 0..MOST_PARTS {
             let time = start + (whole - left);
-            let part = self.part(&motion.xi, time, left, least);
+            let mut part = self.part(&motion.xi, time, left, least);
+            if !R::ALONE {
+                alone = alone | part.stiff;
+                part.h = R::choose(alone, left, part.h);
+            }
             let next = self.take(&motion, time, &part, number, noise);
             if number == 0 && !R::any(end.less((left - part.h).abs())) {
-                return next;
+                return (next, alone);
             }
             let moves = end.less(left.abs());
             motion = chosen(moves, &next, &motion);
             left = R::choose(moves, left - part.h, left);
             if !R::any(end.less(left.abs())) {
-                return motion;
+                return (motion, alone);
             }
         }
-        motion
+        (motion, alone)
     }
 
     /// The part of `left` that comes next, not under `least`.
@@ -185,7 +210,7 @@ impl<F: Shape, R: Real> Equations<F, R> {
         let (h, closure) = (part.h, &separated.closure);
         let kick = separated.noise.kick(&before.xi, time, h, normals);
         let mut motion = *before;
-        if R::any(!part.stiff) {
+        if !R::ALONE || R::any(!part.stiff) {
             self.kirchhoff.step(
                 &mut motion,
                 h,
@@ -193,7 +218,7 @@ impl<F: Shape, R: Real> Equations<F, R> {
                 |xi| closure.load(xi),
             );
         }
-        if R::any(part.stiff) {
+        if R::ALONE && R::any(part.stiff) {
             let mut resisted = *before;
             self.kirchhoff.step_resisted(
                 &mut resisted,

@@ -14,9 +14,9 @@
 use crate::body::Body;
 use crate::fluid::Fluid;
 use crate::linalg::{
-    Mat3, Mat6, Quat, Vec3, Vec6, add, add_scaled, cross, dot, dot6, each, invert_spd, join, lift,
-    mat_vec, matrix_of, mul, quat_mul, quat_normalize, rotate_back, scale, solve_spd, split, sub,
-    transposed_mat_vec, turn,
+    Mat3, Mat6, Quat, Vec3, Vec6, add, add_scaled, cross, dot, dot6, each, eigen_symmetric,
+    invert_spd, join, lift, mat_vec, matrix_of, mul, norm, quat_mul, quat_normalize, rotate_back,
+    scale, solve_spd, split, sub, transposed_mat_vec, turn,
 };
 use crate::real::Real;
 use crate::shape::{General, Shape, Tensor};
@@ -41,6 +41,10 @@ pub(crate) struct Kirchhoff<F: Shape = General, R: Real = f64> {
     /// Buoyancy, world frame (N), acting at `centre_of_buoyancy`.
     buoyancy: Vec3<R>,
     centre_of_buoyancy: Vec3<R>,
+    /// Largest eigenvalue of the linear block of T^-1 (1/kg).
+    mobility: R,
+    /// Bound on how fast weight and buoyancy change the root of twice the energy (kg^(1/2) m/s^2).
+    push: R,
 }
 
 /// What changes over one step, in the body frame of its start: rotation vector and displacement since
@@ -87,13 +91,24 @@ impl Kirchhoff {
     /// `None` if the total tensor is not positive definite.
     pub(crate) fn new(body: &Body, fluid: &Fluid, gravity: Vec3) -> Option<Self> {
         let total = body.total_mass(fluid.density);
+        let inverse = invert_spd(&total)?;
         let displaced = fluid.density * body.volume;
+        let weight = scale(body.mass - displaced, gravity);
+        let buoyancy = scale(-displaced, gravity);
+        let mobility = |first: usize| -> f64 {
+            let block: Mat3 =
+                std::array::from_fn(|i| std::array::from_fn(|j| inverse[first + i][first + j]));
+            eigen_symmetric(&block).0[2]
+        };
+        let torque = norm(buoyancy) * norm(body.centre_of_buoyancy);
         Some(Self {
             total,
-            inverse: invert_spd(&total)?,
-            weight: scale(body.mass - displaced, gravity),
-            buoyancy: scale(-displaced, gravity),
+            inverse,
+            weight,
+            buoyancy,
             centre_of_buoyancy: body.centre_of_buoyancy,
+            mobility: mobility(0),
+            push: norm(weight) * mobility(0).sqrt() + torque * mobility(3).sqrt(),
         })
     }
 
@@ -105,6 +120,8 @@ impl Kirchhoff {
             weight: lift(like, &self.weight),
             buoyancy: lift(like, &self.buoyancy),
             centre_of_buoyancy: lift(like, &self.centre_of_buoyancy),
+            mobility: like.of(self.mobility),
+            push: like.of(self.push),
         }
     }
 
@@ -176,6 +193,54 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         motion.orientation = turned(start.orientation, h, omega);
         let displacement = mat_vec(&matrix_of(middle.orientation), v);
         motion.position = add_scaled(start.position, h, displacement);
+        let after = self.total.times(&motion.xi);
+        let share = self.passive(&start, &momentum, motion, &after, h);
+        motion.xi = each(
+            h,
+            #[inline(always)]
+            |i| share * motion.xi[i],
+        );
+    }
+
+    /// What of the momenta `after` a step of `h` from the momenta `before` is left so that the body has no
+    /// more energy than it had and weight and buoyancy gave it: loads never feed it, and a step that is too
+    /// long must not do so for them. `end` is the motion after the step; where it went further than any
+    /// body with that energy can, it goes as far as it can.
+    #[inline(always)]
+    pub(crate) fn passive(
+        &self,
+        start: &Motion<R>,
+        before: &Vec6<R>,
+        end: &mut Motion<R>,
+        after: &Vec6<R>,
+        h: R,
+    ) -> R {
+        let (zero, one) = (h.of(0.0), h.of(1.0));
+        // Twice the energies.
+        let had = dot6(before, &self.inverse.times(before));
+        let has = dot6(after, &self.inverse.times(after));
+        let most = had.max(zero).sqrt() + self.push * h;
+        let furthest = most * h * self.mobility.sqrt();
+        let displacement = sub(end.position, start.position);
+        let distance = norm(displacement);
+        let too_far = furthest.less(distance);
+        let share = R::choose(too_far, furthest / distance, one);
+        for i in 0..3 {
+            let reached = start.position[i] + share * displacement[i];
+            end.position[i] = R::choose(too_far, reached, end.position[i]);
+        }
+
+        let mut work = share * dot(self.weight, displacement);
+        if !F::CENTRED {
+            let arm = |orientation| mat_vec(&matrix_of(orientation), self.centre_of_buoyancy);
+            let moved = sub(arm(end.orientation), arm(start.orientation));
+            work = work + dot(self.buoyancy, moved);
+        }
+        let allowed = (had + (work + work)).max(zero).min(most * most);
+        // Rounding, and what a sound step errs by.
+        let tolerated = allowed + h.of(1e-6) * (had + most * most * h.of(1e-3));
+        let gained = tolerated.less(has);
+        R::choose(gained, (tolerated / has).sqrt(), one)
     }
 
     /// Weight and buoyancy in the frame of a body whose orientation is `matrix`.
@@ -249,9 +314,16 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
             .plus(sixth, &k4);
 
         let turned = turn(end.theta);
+        let before = *motion;
         motion.orientation = quat_normalize(quat_mul(motion.orientation, turned));
         motion.position = add(motion.position, mat_vec(&start, end.displacement));
-        momentum_after(&matrix_of(turned), &end)
+        let after = momentum_after(&matrix_of(turned), &end);
+        let share = self.passive(&before, momentum, motion, &after, h);
+        each(
+            h,
+            #[inline(always)]
+            |i| share * after[i],
+        )
     }
 
     /// The rate at the start of a step, where nothing has turned yet.

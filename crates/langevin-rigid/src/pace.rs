@@ -33,12 +33,12 @@ pub(crate) struct Pace<R = f64> {
 
 /// A step of the explicit scheme is at most this over the fastest rate. The scheme of fourth order is
 /// stable to 2.8.
-const EXPLICIT: f64 = 1.5;
+const EXPLICIT: f64 = 1.0;
 /// The same for the scheme that takes resistances implicitly and the rest by the midpoint, which is of
 /// second order.
 const IMPLICIT: f64 = 0.25;
 /// A part is no smaller than the step over this.
-pub(crate) const MOST_PARTS: u32 = 4096;
+pub(crate) const MOST_PARTS: u32 = 1024;
 
 /// The next part of a step.
 pub(crate) struct Part<R: Real> {

@@ -23,6 +23,8 @@ pub(crate) trait Real:
         + Not<Output = Self::Mask>;
     /// 32-bit words, one a lane.
     type Words: Words;
+    /// Whether this is one body, not lanes of bodies.
+    const ALONE: bool = false;
     /// What counts as zero beside one, a little above rounding.
     const NEGLIGIBLE: f64;
     /// Largest |x| with e^x and e^-x normal.
@@ -90,6 +92,7 @@ pub(crate) mod double {
 impl Real for f64 {
     type Mask = bool;
     type Words = u32;
+    const ALONE: bool = true;
     const NEGLIGIBLE: f64 = 1e-9;
     const LARGEST_EXPONENT: f64 = 700.0;
 
