@@ -91,7 +91,7 @@ fn shape(dice: &mut Dice) -> Shape {
     }
 }
 
-/// Steps a body for five seconds and says what is wrong with how it moves.
+/// Steps a body for two seconds and says what is wrong with how it moves.
 fn fall(body: &Body, fluid: &Fluid, model: Model, start: &State, seed: u64) -> Result<(), String> {
     let settings = Settings {
         model,
@@ -102,7 +102,7 @@ fn fall(body: &Body, fluid: &Fluid, model: Model, start: &State, seed: u64) -> R
     let noise = NoiseStream { seed, body: 0 };
     let (mut state, first) = (*start, stepper.kinetic_energy(start));
     let (mut most, mut given) = (first, 0.0f64);
-    for _ in 0..300 {
+    for _ in 0..120 {
         stepper
             .step(&mut state, 1.0 / 60.0, &noise)
             .map_err(|e| e.to_string())?;
@@ -111,7 +111,8 @@ fn fall(body: &Body, fluid: &Fluid, model: Model, start: &State, seed: u64) -> R
     }
     // Weight gives what the body has fallen. What turbulence gives it takes from the body's own motion.
     let allowed = match model {
-        Model::Kirchhoff => 1.02 * (first + given),
+        // A millionth a part is taken for rounding, and there may be 256 parts a step.
+        Model::Kirchhoff => 1.05 * (first + given),
         _ => 1.5 * (first + given),
     };
     let speed = falling_speed(body, fluid, GRAVITY);
@@ -121,7 +122,7 @@ fn fall(body: &Body, fluid: &Fluid, model: Model, start: &State, seed: u64) -> R
     if most
         <= allowed
             + if model == Model::Consistent {
-                500.0 * unit
+                5.0 * unit
             } else {
                 0.02 * unit
             }
@@ -161,7 +162,6 @@ fn random_bodies_are_finite_and_move_as_their_energy_lets_them() {
                 Ok(baked) => baked,
                 Err(error) => return vec![format!("{what}: {error}")],
             };
-            std::fs::create_dir_all("/tmp/bodies").unwrap(); std::fs::write(format!("/tmp/bodies/{number}.lrbake"), langevin_rigid::Bake{body: body.clone(), history: None, error_estimate: 0.0, warnings: vec![], fingerprint: [0;32]}.to_bytes()).unwrap();
             let mut start = State {
                 orientation: quat_from_rotation_vector(dice.normals()),
                 ..State::default()

@@ -189,7 +189,7 @@ impl<F: Shape, R: Real> Equations<F, R> {
         let relaxed = langevin.step(&modes, time, half, first);
         motion.xi = langevin.modes.velocity(&relaxed);
         let momentum = langevin.modes.momentum(&relaxed);
-        let momentum = self
+        let (momentum, _) = self
             .kirchhoff
             .step_momentum(&mut motion, &momentum, h, |_| None);
         let turned = langevin.modes.of_momentum(&momentum);
@@ -208,10 +208,10 @@ impl<F: Shape, R: Real> Equations<F, R> {
         normals: &[R; 6],
     ) -> Motion<R> {
         let (h, closure) = (part.h, &separated.closure);
-        let kick = separated.noise.kick(&before.xi, time, h, normals);
         let mut motion = *before;
+        let mut lost = h.of(0.0);
         if !R::ALONE || R::any(!part.stiff) {
-            self.kirchhoff.step(
+            lost = self.kirchhoff.step(
                 &mut motion,
                 h,
                 #[inline(always)]
@@ -220,14 +220,18 @@ impl<F: Shape, R: Real> Equations<F, R> {
         }
         if R::ALONE && R::any(part.stiff) {
             let mut resisted = *before;
-            self.kirchhoff.step_resisted(
+            let taken = self.kirchhoff.step_resisted(
                 &mut resisted,
                 h,
                 #[inline(always)]
                 |xi| closure.resisted_load(xi),
             );
             motion = chosen(part.stiff, &resisted, &motion);
+            lost = R::choose(part.stiff, taken, lost);
         }
+        let kick = separated
+            .noise
+            .kick(&before.xi, time, h, Some(lost), normals);
         motion.xi = each(
             h,
             #[inline(always)]

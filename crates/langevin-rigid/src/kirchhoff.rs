@@ -163,7 +163,7 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         motion: &mut Motion<R>,
         h: R,
         load: impl Fn(&Vec6<R>) -> Option<(Vec6<R>, Mat6<R>)>,
-    ) {
+    ) -> R {
         let start = *motion;
         let (momentum, total) = (self.total.times(&start.xi), self.total.matrix());
         // The velocity after `h` with the loads and resistances of `from`.
@@ -194,18 +194,20 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         let displacement = mat_vec(&matrix_of(middle.orientation), v);
         motion.position = add_scaled(start.position, h, displacement);
         let after = self.total.times(&motion.xi);
-        let share = self.passive(&start, &momentum, motion, &after, h);
+        let (share, lost) = self.passive(&start, &momentum, motion, &after, h);
         motion.xi = each(
             h,
             #[inline(always)]
             |i| share * motion.xi[i],
         );
+        lost
     }
 
-    /// What of the momenta `after` a step of `h` from the momenta `before` is left so that the body has no
-    /// more energy than it had and weight and buoyancy gave it: loads never feed it, and a step that is too
-    /// long must not do so for them. `end` is the motion after the step; where it went further than any
-    /// body with that energy can, it goes as far as it can.
+    /// The share of the momenta `after` a step of `h` from the momenta `before` with which the body has no
+    /// more energy than it had and weight and buoyancy gave it, and the energy that the loads took from it
+    /// (J). Loads never feed the body, and a step that is too long must not do so for them. `end` is the
+    /// motion after the step; where it went further than any body with that energy can, it goes as far as
+    /// it can.
     #[inline(always)]
     pub(crate) fn passive(
         &self,
@@ -214,7 +216,7 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         end: &mut Motion<R>,
         after: &Vec6<R>,
         h: R,
-    ) -> R {
+    ) -> (R, R) {
         let (zero, one) = (h.of(0.0), h.of(1.0));
         // Twice the energies.
         let had = dot6(before, &self.inverse.times(before));
@@ -240,7 +242,9 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         // Rounding, and what a sound step errs by.
         let tolerated = allowed + h.of(1e-6) * (had + most * most * h.of(1e-3));
         let gained = tolerated.less(has);
-        R::choose(gained, (tolerated / has).sqrt(), one)
+        let share = R::choose(gained, (tolerated / has).sqrt(), one);
+        let lost = (allowed - has).max(zero) * h.of(0.5);
+        (share, lost)
     }
 
     /// Weight and buoyancy in the frame of a body whose orientation is `matrix`.
@@ -256,17 +260,18 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
     /// One step by the fourth-order Runge-Kutta-Munthe-Kaas scheme on the rotation group.
     ///
     /// `load` is a further generalized force about the centre of mass, body frame, from the velocity
-    /// relative to the fluid, if there is one.
+    /// relative to the fluid, if there is one. Returns the energy that it took from the body (J).
     #[inline(always)]
     pub(crate) fn step(
         &self,
         motion: &mut Motion<R>,
         h: R,
         load: impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
-    ) {
+    ) -> R {
         let momentum = self.total.times(&motion.xi);
-        let momentum = self.step_momentum(motion, &momentum, h, load);
+        let (momentum, lost) = self.step_momentum(motion, &momentum, h, load);
         motion.xi = self.velocity(&momentum);
+        lost
     }
 
     /// T^-1 of the momenta, corrected once: the rounding of the inverse is the same in every step, so
@@ -297,7 +302,7 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         momentum: &Vec6<R>,
         h: R,
         load: impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
-    ) -> Vec6<R> {
+    ) -> (Vec6<R>, R) {
         let start = matrix_of(motion.orientation);
         let loads = StaticLoads {
             weight: transposed_mat_vec(&start, self.weight),
@@ -318,12 +323,13 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         motion.orientation = quat_normalize(quat_mul(motion.orientation, turned));
         motion.position = add(motion.position, mat_vec(&start, end.displacement));
         let after = momentum_after(&matrix_of(turned), &end);
-        let share = self.passive(&before, momentum, motion, &after, h);
-        each(
+        let (share, lost) = self.passive(&before, momentum, motion, &after, h);
+        let after = each(
             h,
             #[inline(always)]
             |i| share * after[i],
-        )
+        );
+        (after, lost)
     }
 
     /// The rate at the start of a step, where nothing has turned yet.

@@ -25,6 +25,12 @@ pub(crate) struct Langevin<F: Shape = General, R: Real = f64> {
     added: F::Tensor<R>,
     /// T^-1 A B at beta = 1.
     kick: F::Tensor<R>,
+    /// Power of the noise at beta = 1, half the trace of B A T^-1 A B (kg).
+    ///
+    /// The turbulence at the body has no other source than what the body loses: where it follows the
+    /// body's speed, its noise gives back no more than relaxation or drag have taken. Without that bound
+    /// noise would feed motions that nothing resists, the spin of a rod and the slip of a sheet, for ever.
+    noise_power: R,
     pub(crate) modes: F::Modes<R>,
 }
 
@@ -50,6 +56,7 @@ impl Langevin {
         Some(Self {
             source,
             added,
+            noise_power: 0.5 * noise_power(&to_modes, &eigenvalues, &noise),
             kick: mul_columns(&fraction, &noise),
             modes: Eigenmodes::new(eigenvalues, from_modes, to_modes, &noise),
         })
@@ -61,6 +68,7 @@ impl Langevin {
             source: self.source.lift(like),
             added: G::tensor(like, &self.added),
             kick: G::tensor(like, &self.kick),
+            noise_power: like.of(self.noise_power),
             modes: G::modes(like, self, total),
         }
     }
@@ -145,7 +153,8 @@ impl<F: Shape, R: Real> Langevin<F, R> {
         R::choose(exceeds, wanted.max(least).min(left), left)
     }
 
-    /// alpha in the middle of a step, where the speed has dropped; beta at its start (Ito).
+    /// alpha in the middle of a step, where the speed has dropped; beta at its start (Ito), within what the
+    /// relaxation takes.
     #[inline(always)]
     fn midpoint_coefficients(&self, modes: &Vec6<R>, time: R, h: R) -> Coefficients<R> {
         let v = self.modes.linear(modes);
@@ -161,6 +170,8 @@ impl<F: Shape, R: Real> Langevin<F, R> {
             let zero = h.of(0.0);
             let lost = dot(v, self.modes.linear(&relaxing)).max(zero) * c.alpha * (h * h.of(0.5));
             let moving = zero.less(v2);
+            let taken = c.alpha * self.modes.relaxed(modes);
+            c.diffusion = c.diffusion.min(taken / self.noise_power);
             c.alpha = R::choose(moving, c.alpha * v2 / (v2 + lost), zero);
         }
         c
@@ -173,11 +184,24 @@ impl<F: Shape, R: Real> Langevin<F, R> {
         each(time, |i| -(alpha * momentum[i]))
     }
 
-    /// The Euler-Maruyama change of the velocity over `h`, T^-1 A B dW.
+    /// The Euler-Maruyama change of the velocity over `h`, T^-1 A B dW, with the coefficients of the
+    /// velocity `xi`; from turbulence of the body's own it gives no more energy than `lost` (J), if that is
+    /// known.
     #[inline(always)]
-    pub(crate) fn kick(&self, xi: &Vec6<R>, time: R, h: R, normals: &[R; 6]) -> Vec6<R> {
+    pub(crate) fn kick(
+        &self,
+        xi: &Vec6<R>,
+        time: R,
+        h: R,
+        lost: Option<R>,
+        normals: &[R; 6],
+    ) -> Vec6<R> {
         let diffusion = self.source.coefficients(norm(split(xi).0), time).diffusion;
-        let strength = (diffusion * h).sqrt();
+        let mut variance = diffusion * h;
+        if let Some(lost) = lost.filter(|_| self.source.follows_speed()) {
+            variance = variance.min(lost / self.noise_power);
+        }
+        let strength = variance.sqrt();
         let kick = self.kick.times(normals);
         each(
             h,
@@ -185,6 +209,13 @@ impl<F: Shape, R: Real> Langevin<F, R> {
             |i| strength * kick[i],
         )
     }
+}
+
+/// The trace of B A T^-1 A B: the square of lambda V^-1 B.
+fn noise_power(to_modes: &Mat6, eigenvalues: &Vec6, noise: &Vec6) -> f64 {
+    let entry = |i: usize, j: usize| eigenvalues[i] * to_modes[i][j] * noise[j];
+    let entries = (0..6).flat_map(|i| (0..6).map(move |j| (i, j)));
+    entries.map(|(i, j)| entry(i, j) * entry(i, j)).sum()
 }
 
 #[cfg(test)]

@@ -20,6 +20,8 @@ pub(crate) trait Modes<R: Real> {
     /// The linear part of the velocity.
     fn linear(&self, modes: &Vec6<R>) -> Vec3<R>;
     fn momentum(&self, modes: &Vec6<R>) -> Vec6<R>;
+    /// xi . A xi: the power of the relaxation at alpha = 1.
+    fn relaxed(&self, modes: &Vec6<R>) -> R;
     /// Noise of the modes after a time h at beta^2 h = 1, with s = alpha h, where s lambda is at most
     /// [`SMALL_EXPONENT`].
     fn small_noise(&self, s: R, normals: &[R; 6]) -> Vec6<R>;
@@ -114,6 +116,15 @@ impl<R: Real> Modes<R> for Eigenmodes<R> {
         mul(&self.to_momentum, modes)
     }
     #[inline(always)]
+    fn relaxed(&self, modes: &Vec6<R>) -> R {
+        let relaxing = each(
+            modes[0],
+            #[inline(always)]
+            |i| self.eigenvalues[i] * modes[i],
+        );
+        dot6(modes, &relaxing)
+    }
+    #[inline(always)]
     fn small_noise(&self, s: R, normals: &[R; 6]) -> Vec6<R> {
         self.factor.small(s, normals)
     }
@@ -186,6 +197,15 @@ impl<R: Real> Modes<R> for Axes<R> {
             #[inline(always)]
             |i| self.total[i] * modes[i],
         )
+    }
+    #[inline(always)]
+    fn relaxed(&self, modes: &Vec6<R>) -> R {
+        let relaxing = each(
+            modes[0],
+            #[inline(always)]
+            |i| self.eigenvalues[i] * modes[i],
+        );
+        dot6(&self.momentum(modes), &relaxing)
     }
     #[inline(always)]
     fn small_noise(&self, s: R, normals: &[R; 6]) -> Vec6<R> {

@@ -38,7 +38,7 @@ const EXPLICIT: f64 = 1.0;
 /// second order.
 const IMPLICIT: f64 = 0.25;
 /// A part is no smaller than the step over this.
-pub(crate) const MOST_PARTS: u32 = 1024;
+pub(crate) const MOST_PARTS: u32 = 256;
 
 /// The next part of a step.
 pub(crate) struct Part<R: Real> {

@@ -194,7 +194,7 @@ impl Stepper {
 
     /// Advances `state` by `dt` (s) with the noise of its step number.
     ///
-    /// A step longer than [`Stepper::longest_step`] is taken in parts, up to 1024. However
+    /// A step longer than [`Stepper::longest_step`] is taken in parts, up to 256. However
     /// long it is, the body gains no more energy than its weight, its buoyancy and turbulence give it.
     ///
     /// # Errors
@@ -371,7 +371,10 @@ impl Stepper {
             mul(&kirchhoff.inverse, &rate)
         });
         if let Some(langevin) = langevin {
-            accumulate(&mut motion.xi, &langevin.kick(&start, time, dt, normals));
+            accumulate(
+                &mut motion.xi,
+                &langevin.kick(&start, time, dt, None, normals),
+            );
         }
     }
 }
