@@ -17,6 +17,12 @@ const LARGE: u64 = 1 << 31;
 /// The arrays `body` (n), `t` (n), `position` (n, 3), `orientation` (n, 4), `velocity` and
 /// `angular_velocity` (n, 3).
 pub(super) fn write(trajectories: &[Trajectory], out: impl Write + Seek) -> io::Result<()> {
+    let mut out = FirstError { out, error: None };
+    let written = archive(trajectories, &mut out);
+    out.error.map_or(written, Err)
+}
+
+fn archive(trajectories: &[Trajectory], out: impl Write + Seek) -> io::Result<()> {
     let rows = trajectories.iter().map(|t| t.len() as u64).sum();
     let mut file = Archive {
         zip: ZipWriter::new(out),
@@ -67,5 +73,45 @@ impl<W: Write + Seek> Archive<W> {
             .begin_nd()?;
         array.extend(values)?;
         array.finish()
+    }
+}
+
+/// Keeps the first error of `out`, after which nothing is written any more. The archive would try to end itself
+/// all the same, and print that it cannot.
+struct FirstError<W> {
+    out: W,
+    error: Option<io::Error>,
+}
+
+impl<W> FirstError<W> {
+    /// The result of `work`, or `otherwise` once there was an error.
+    fn until_error<T>(
+        &mut self,
+        otherwise: T,
+        work: impl FnOnce(&mut W) -> io::Result<T>,
+    ) -> io::Result<T> {
+        if self.error.is_some() {
+            return Ok(otherwise);
+        }
+        Ok(work(&mut self.out).unwrap_or_else(|error| {
+            self.error = Some(error);
+            otherwise
+        }))
+    }
+}
+
+impl<W: Write> Write for FirstError<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.until_error(bytes.len(), |out| out.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.until_error((), Write::flush)
+    }
+}
+
+impl<W: Seek> Seek for FirstError<W> {
+    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+        self.until_error(0, |out| out.seek(to))
     }
 }
