@@ -76,7 +76,7 @@ fn forecast(options: &Crowd, time_step: f64) -> Result<()> {
     let steps = f64::from(bodies) * (seconds / time_step);
     forecast::check(
         Need::new(f64::from(bodies) * BODY + frames, steps),
-        &format!("`--bodies {bodies} --seconds {seconds}`"),
+        &format!("`--bodies {bodies} --seconds {seconds:?}`"),
     )
 }
 

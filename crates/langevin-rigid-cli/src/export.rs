@@ -64,7 +64,7 @@ fn forecast(options: &Export, trajectories: &[Trajectory]) -> Result<()> {
         .filter_map(|t| Some(t.poses.last()?.time));
     let seconds: f64 = ends.sum();
     let need = forecast::kept(1, seconds, f64::INFINITY, Some(options.fps));
-    forecast::check(need, &format!("`--fps {}`", options.fps))
+    forecast::check(need, &format!("`--fps {:?}`", options.fps))
 }
 
 /// The table of a run is what everything else is made from.

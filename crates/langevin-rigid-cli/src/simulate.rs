@@ -99,7 +99,7 @@ fn forecast(options: &Simulate, scene: &Scene, baked: &Baked) -> Result<()> {
     let frames = seconds * options.fps;
     if options.frames.is_some() && frames > Film::MOST_FRAMES as f64 {
         bail!(
-            "`--frames` at `--fps {}` would take {frames:.3e} pictures, and a film has {} at most: ask for \
+            "`--frames` at `--fps {:?}` would take {frames:.3e} pictures, and a film has {} at most: ask for \
              fewer a second, or end earlier (`--duration`)",
             options.fps,
             Film::MOST_FRAMES
@@ -109,7 +109,7 @@ fn forecast(options: &Simulate, scene: &Scene, baked: &Baked) -> Result<()> {
     let fps = options.format.iter().any(animated).then_some(options.fps);
     let need = forecast::kept(options.bodies, seconds, scene.time_step, fps);
     let what = format!(
-        "`--bodies {} --fps {}` for {seconds:.3e} s in steps of {} s (`--duration`, `--dt`)",
+        "`--bodies {} --fps {:?}` for {seconds:.3} s in steps of {:?} s (`--duration`, `--dt`)",
         options.bodies, options.fps, scene.time_step
     );
     forecast::check(need, &what)

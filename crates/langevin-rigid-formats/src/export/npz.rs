@@ -115,3 +115,29 @@ impl<W: Seek> Seek for FirstError<W> {
         self.until_error(0, |out| out.seek(to))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use langevin_rigid::State;
+
+    use super::*;
+
+    #[test]
+    fn a_full_disk_is_told_wherever_it_fills() {
+        let trajectories = [Trajectory::new(0, &[State::default(); 3])];
+        let mut whole = Cursor::new(Vec::new());
+        write(&trajectories, &mut whole).unwrap();
+        let length = whole.get_ref().len();
+        for room in (0..length).step_by(7) {
+            let mut full = Cursor::new(vec![0; room]);
+            let error = write(&trajectories, Cursor::new(full.get_mut().as_mut_slice()));
+            assert_eq!(
+                error.unwrap_err().kind(),
+                io::ErrorKind::WriteZero,
+                "{room}"
+            );
+        }
+    }
+}
