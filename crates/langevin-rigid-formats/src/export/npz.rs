@@ -17,7 +17,12 @@ const LARGE: u64 = 1 << 31;
 /// The arrays `body` (n), `t` (n), `position` (n, 3), `orientation` (n, 4), `velocity` and
 /// `angular_velocity` (n, 3).
 pub(super) fn write(trajectories: &[Trajectory], out: impl Write + Seek) -> io::Result<()> {
-    let mut out = FirstError { out, error: None };
+    let mut out = FirstError {
+        out,
+        error: None,
+        place: 0,
+        end: 0,
+    };
     let written = archive(trajectories, &mut out);
     out.error.map_or(written, Err)
 }
@@ -76,43 +81,46 @@ impl<W: Write + Seek> Archive<W> {
     }
 }
 
-/// Keeps the first error of `out`, after which nothing is written any more. The archive would try to end itself
-/// all the same, and print that it cannot.
+/// Keeps the first error of `out`, which begins empty. Nothing is written after it, and the archive is none the
+/// wiser: it would try to end itself all the same, and print that it cannot.
 struct FirstError<W> {
     out: W,
     error: Option<io::Error>,
+    place: u64,
+    end: u64,
 }
 
 impl<W> FirstError<W> {
-    /// The result of `work`, or `otherwise` once there was an error.
-    fn until_error<T>(
-        &mut self,
-        otherwise: T,
-        work: impl FnOnce(&mut W) -> io::Result<T>,
-    ) -> io::Result<T> {
-        if self.error.is_some() {
-            return Ok(otherwise);
+    fn until_error<T>(&mut self, work: impl FnOnce(&mut W) -> io::Result<T>) {
+        if self.error.is_none() {
+            self.error = work(&mut self.out).err();
         }
-        Ok(work(&mut self.out).unwrap_or_else(|error| {
-            self.error = Some(error);
-            otherwise
-        }))
     }
 }
 
 impl<W: Write> Write for FirstError<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.until_error(bytes.len(), |out| out.write(bytes))
+        self.until_error(|out| out.write_all(bytes));
+        self.place += bytes.len() as u64;
+        self.end = self.end.max(self.place);
+        Ok(bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.until_error((), Write::flush)
+        self.until_error(Write::flush);
+        Ok(())
     }
 }
 
 impl<W: Seek> Seek for FirstError<W> {
     fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
-        self.until_error(0, |out| out.seek(to))
+        self.until_error(|out| out.seek(to));
+        self.place = match to {
+            io::SeekFrom::Start(place) => place,
+            io::SeekFrom::Current(by) => self.place.saturating_add_signed(by),
+            io::SeekFrom::End(by) => self.end.saturating_add_signed(by),
+        };
+        Ok(self.place)
     }
 }
 
