@@ -107,7 +107,7 @@ pub fn bake_body(
 /// ```
 /// use langevin_rigid_bake::body::{BodySpec, bake_body, could_be};
 /// use langevin_rigid_bake::shapes::Shape;
-/// let mesh = Shape::Cuboid { size: [0.1, 0.2, 0.3] }.mesh(100)?;
+/// let mesh = Shape::Box { size: [0.1, 0.2, 0.3] }.mesh(100)?;
 /// let spec = BodySpec { density: Some(500.0), ..BodySpec::default() };
 /// let (mut body, _) = bake_body(&mesh, &spec, &())?;
 /// assert!(could_be(&body, &mesh, &spec));

@@ -99,8 +99,8 @@ fn forecast(options: &Simulate, scene: &Scene, baked: &Baked) -> Result<()> {
     let frames = seconds * options.fps;
     if options.frames.is_some() && frames > Film::MOST_FRAMES as f64 {
         bail!(
-            "`--frames` at {:?} frames a second (`--fps`) would take {frames:.3e} pictures, and a film has {} at most: ask for \
-             fewer a second, or end earlier (`--duration`)",
+            "`--frames` at {:?} frames a second (`--fps`) would take {frames:.3e} pictures, and a film \
+             has {} at most: ask for fewer a second, or end earlier (`--duration`)",
             options.fps,
             Film::MOST_FRAMES
         );
