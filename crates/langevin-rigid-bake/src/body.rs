@@ -101,6 +101,42 @@ pub fn bake_body(
     Ok((body, added))
 }
 
+/// Whether `body` can be what [`bake_body`] made of this mesh and these choices: whatever of it is cheap is
+/// computed again and must have the same bits.
+///
+/// ```
+/// use langevin_rigid_bake::body::{BodySpec, bake_body, could_be};
+/// use langevin_rigid_bake::shapes::Shape;
+/// let mesh = Shape::Box { size: [0.1, 0.2, 0.3] }.mesh(100)?;
+/// let spec = BodySpec { density: Some(500.0), ..BodySpec::default() };
+/// let (mut body, _) = bake_body(&mesh, &spec, &())?;
+/// assert!(could_be(&body, &mesh, &spec));
+/// body.mass *= 3.0;
+/// assert!(!could_be(&body, &mesh, &spec));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn could_be(body: &Body, mesh: &TriMesh, spec: &BodySpec) -> bool {
+    let Ok(mass) = mass_properties(mesh, spec) else {
+        return false;
+    };
+    let wetted = &*mesh.wetted();
+    let half_extents = half_extents(wetted);
+    let centre = mass.centre_of_mass;
+    let from_centre = |p: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| p[i] - centre[i]) };
+    let vertices = wetted.vertices().iter().map(|p| from_centre(*p));
+    body.check().is_ok()
+        && body.mass == mass.mass
+        && body.inertia == mass.inertia
+        && body.volume == mass.volume
+        && body.centre_of_buoyancy == from_centre(mass.centroid)
+        && body.half_extents == half_extents
+        && spec.thickness.is_none_or(|b| body.thickness == b)
+        && body.length == spec.length.unwrap_or(2.0 * half_extents[0])
+        && body.surface.triangles == wetted.triangles()
+        && body.surface.vertices.len() >= vertices.len()
+        && vertices.zip(&body.surface.vertices).all(|(p, q)| p == *q)
+}
+
 fn mass_properties(mesh: &TriMesh, spec: &BodySpec) -> Result<MassProperties, BodyBakeError> {
     let mut mass = match (spec.density, spec.mass) {
         (_, Some(mass)) => MassProperties::of(mesh, 1.0)?.with_mass(mass)?,

@@ -12,7 +12,7 @@ use langevin_rigid_formats::added_mass::{
 
 use crate::arguments::{About, AddedMass, Format};
 use crate::bars::Bars;
-use crate::meshes;
+use crate::{meshes, say};
 
 pub(crate) fn added_mass(options: &AddedMass, bars: &Bars) -> Result<()> {
     let started = Instant::now();
@@ -26,7 +26,7 @@ pub(crate) fn added_mass(options: &AddedMass, bars: &Bars) -> Result<()> {
     report.seconds = started.elapsed().as_secs_f64();
     bars.clear();
     for warning in &report.warnings {
-        eprintln!("warning: {warning}");
+        say::warning(warning);
     }
     let text = match options.format {
         Format::Table => table(&report),
@@ -37,7 +37,7 @@ pub(crate) fn added_mass(options: &AddedMass, bars: &Bars) -> Result<()> {
         Format::Mujoco => mujoco(&report),
         Format::Capytaine => capytaine(&report),
     };
-    std::io::stdout().write_all(text.as_bytes())?;
+    say::out().write_all(text.as_bytes())?;
     Ok(())
 }
 

@@ -13,7 +13,7 @@ Exit codes:
   0    done
   1    the input or the run failed; what had been computed is kept
   2    the command line was not understood
-  130  interrupted (Ctrl-C); what had been computed is kept
+  129, 130, 143  ended by SIGHUP, Ctrl-C, SIGTERM; what had been computed is kept. A second one ends at once
 
 Bakes are kept in the platform's cache folder, or in LANGEVIN_RIGID_CACHE if that is set.";
 

@@ -1,11 +1,12 @@
-//! Progress on a terminal, and Ctrl-C.
+//! Progress on a terminal, and being asked to stop.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use langevin_rigid_bake::progress::Progress;
+
+use crate::signals::Signals;
 
 /// What takes less is over before anybody wonders.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -13,8 +14,8 @@ const TICKS: u64 = 1000;
 
 /// One progress bar at a time on standard error, if that is a terminal.
 pub(crate) struct Bars {
-    interrupted: Arc<AtomicBool>,
-    current: Mutex<Current>,
+    signals: Arc<Signals>,
+    current: Arc<Mutex<Current>>,
 }
 
 struct Current {
@@ -25,24 +26,41 @@ struct Current {
 
 impl Bars {
     pub(crate) fn new() -> Self {
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&interrupted);
-        // Without a handler Ctrl-C ends the process at once, which loses work but harms no file.
-        let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
-        let current = Current {
+        let current = Arc::new(Mutex::new(Current {
             stage: String::new(),
             since: Instant::now(),
             bar: None,
+        }));
+        let shown = Arc::clone(&current);
+        // The thread that draws may be stuck: the bar then stays.
+        let clear = move || {
+            if let Ok(mut shown) = shown.try_lock() {
+                shown.start("");
+            }
         };
         Self {
-            interrupted,
-            current: Mutex::new(current),
+            signals: Signals::listen(clear),
+            current,
         }
     }
 
-    /// Whether Ctrl-C was pressed.
+    /// Whether a signal asked to stop.
     pub(crate) fn interrupted(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
+        self.signals.came()
+    }
+
+    /// The exit code if so.
+    pub(crate) fn exit_code(&self) -> u8 {
+        self.signals.exit_code()
+    }
+
+    /// Does work that stops when it is asked and whose first part is worth keeping. A signal that comes at
+    /// another time ends the process.
+    pub(crate) fn stoppable<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.signals.stoppable(true);
+        let done = work();
+        self.signals.stoppable(false);
+        done
     }
 
     /// Takes the bar off the screen.

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use crate::arguments::Bench;
 use crate::bars::Bars;
-use crate::cache;
+use crate::{cache, say};
 
 /// Times are medians over so many repetitions.
 const REPEATS: usize = 31;
@@ -84,7 +84,7 @@ pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
         turbulence_cells_per_s: turbulence_cells_per_s(bars)?,
     };
     bars.clear();
-    let mut out = std::io::stdout().lock();
+    let mut out = say::out();
     if options.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&report)?)?;
         return Ok(());

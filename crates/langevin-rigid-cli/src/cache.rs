@@ -6,6 +6,8 @@ use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::baking::{Baked, SceneBakeError, bake_scene};
 use langevin_rigid_formats::scene::Scene;
 
+use crate::say;
+
 const VARIABLE: &str = "LANGEVIN_RIGID_CACHE";
 
 pub(crate) fn folder() -> Option<PathBuf> {
@@ -19,12 +21,12 @@ pub(crate) fn folder() -> Option<PathBuf> {
 pub(crate) fn bake(scene: &Scene, progress: &dyn Progress) -> Result<Baked, SceneBakeError> {
     let baked = bake_scene(scene, folder().as_deref(), progress)?;
     for notice in &baked.notices {
-        eprintln!("note: {notice}");
+        say::note(notice);
     }
     if let Some(trouble) = &baked.cache_trouble {
-        eprintln!(
-            "warning: {trouble}; the bake was not kept (set {VARIABLE} to a writable folder)"
-        );
+        say::warning(format!(
+            "{trouble}; the bake was not kept (set {VARIABLE} to a writable folder)"
+        ));
     }
     Ok(baked)
 }

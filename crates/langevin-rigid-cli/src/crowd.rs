@@ -6,16 +6,22 @@ use std::time::{Duration, Instant};
 use anyhow::{Result, bail};
 use langevin_rigid::{Batch, BatchError, Stepper};
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::{baking, scene};
+use langevin_rigid_formats::baking;
+use langevin_rigid_formats::budget::Need;
+use langevin_rigid_formats::scene::{self, Scene};
 use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::arguments::Crowd;
 use crate::bars::Bars;
-use crate::cache;
 use crate::simulate::set_model;
+use crate::{cache, forecast, say};
 
 const FRAMES_PER_SECOND: f64 = 60.0;
+const FRAME: Duration = Duration::from_nanos(1_000_000_000 / 60);
+
+/// Memory of a body in the batch (bytes): its state in lanes, and what a growing list holds ready.
+const BODY: f64 = 300.0;
 
 /// What is printed.
 #[derive(Debug, Serialize)]
@@ -37,35 +43,17 @@ pub(crate) fn crowd(options: &Crowd, bars: &Bars) -> Result<()> {
     set_model(options.model, &mut scene);
     let baked = cache::bake(&scene, bars)?;
     let stepper = baking::stepper(&scene, &baked.bake)?;
+    forecast(options, scene.time_step)?;
     let mut batch = Batch::<f64>::new(scene.seed);
     for _ in 0..options.bodies {
         batch.push(&scene.release);
     }
-
-    let frame = Duration::from_secs_f64(1.0 / FRAMES_PER_SECOND);
-    let frames = (options.seconds * FRAMES_PER_SECOND).ceil() as usize;
-    let mut spent = Vec::with_capacity(frames);
-    let mut steps = 0u64;
-    let mut due = Instant::now();
-    for number in 1..=frames {
-        if bars.cancelled() {
-            break;
-        }
-        let started = Instant::now();
-        let wanted = (number as f64 / FRAMES_PER_SECOND / scene.time_step).round() as u64;
-        step(&stepper, &mut batch, scene.time_step, wanted - steps)?;
-        steps = wanted;
-        spent.push(started.elapsed());
-        bars.report("crowd", number as f64 / frames as f64);
-        // In real time: the next frame begins when it is due, or now if it is late.
-        due = (due + frame).max(Instant::now());
-        std::thread::sleep(due.saturating_duration_since(Instant::now()));
-    }
+    let mut spent = bars.stoppable(|| frames(options, &scene, &stepper, &mut batch, bars))?;
     bars.clear();
     if spent.is_empty() {
         bail!("interrupted before the first frame");
     }
-    let missed_frames = spent.iter().filter(|&&time| time > frame).count();
+    let missed_frames = spent.iter().filter(|&&time| time > FRAME).count();
     spent.sort_unstable();
     let milliseconds = |time: Duration| 1e3 * time.as_secs_f64();
     let report = Report {
@@ -82,6 +70,45 @@ pub(crate) fn crowd(options: &Crowd, bars: &Bars) -> Result<()> {
     tell(&report, options.json)
 }
 
+fn forecast(options: &Crowd, time_step: f64) -> Result<()> {
+    let (bodies, seconds) = (options.bodies, options.seconds);
+    let frames = seconds * FRAMES_PER_SECOND * size_of::<Duration>() as f64;
+    let steps = f64::from(bodies) * (seconds / time_step);
+    forecast::check(
+        Need::new(f64::from(bodies) * BODY + frames, steps),
+        &format!("`--bodies {bodies} --seconds {seconds:?}`"),
+    )
+}
+
+/// How long the steps of each frame took, until the end or a signal.
+fn frames(
+    options: &Crowd,
+    scene: &Scene,
+    stepper: &Stepper,
+    batch: &mut Batch,
+    bars: &Bars,
+) -> Result<Vec<Duration>> {
+    let frames = (options.seconds * FRAMES_PER_SECOND).ceil() as usize;
+    let mut spent = Vec::with_capacity(frames);
+    let mut steps = 0u64;
+    let mut due = Instant::now();
+    for number in 1..=frames {
+        if bars.cancelled() {
+            break;
+        }
+        let started = Instant::now();
+        let wanted = (number as f64 / FRAMES_PER_SECOND / scene.time_step).round() as u64;
+        step(stepper, batch, scene.time_step, wanted - steps)?;
+        steps = wanted;
+        spent.push(started.elapsed());
+        bars.report("crowd", number as f64 / frames as f64);
+        // In real time: the next frame begins when it is due, or now if it is late.
+        due = (due + FRAME).max(Instant::now());
+        std::thread::sleep(due.saturating_duration_since(Instant::now()));
+    }
+    Ok(spent)
+}
+
 /// Steps of all bodies, shared among the threads: each takes its share through all of them, as bodies
 /// do not meet.
 fn step(stepper: &Stepper, batch: &mut Batch, dt: f64, steps: u64) -> Result<(), BatchError> {
@@ -96,7 +123,7 @@ fn step(stepper: &Stepper, batch: &mut Batch, dt: f64, steps: u64) -> Result<(),
 }
 
 fn tell(report: &Report, json: bool) -> Result<()> {
-    let mut out = std::io::stdout().lock();
+    let mut out = say::out();
     if json {
         writeln!(out, "{}", serde_json::to_string_pretty(report)?)?;
         return Ok(());

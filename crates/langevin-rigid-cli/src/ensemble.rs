@@ -5,18 +5,22 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Result, bail};
-use langevin_rigid::Hull;
+use langevin_rigid::linalg::Vec3;
+use langevin_rigid::{Body, Hull};
 use langevin_rigid_formats::baking::{self, Baked};
-use langevin_rigid_formats::ensemble::{self, Fall, FallEnding, Statistics, landings_csv};
-use langevin_rigid_formats::files;
+use langevin_rigid_formats::budget::Need;
+use langevin_rigid_formats::ensemble::{
+    self, Fall, FallEnding, SAMPLES_PER_SECOND, Statistics, landings_csv,
+};
+use langevin_rigid_formats::files::{self, Claim};
 use langevin_rigid_formats::scene::{self, Scene};
 use serde::Serialize;
 
 use crate::arguments::Ensemble;
 use crate::bars::Bars;
-use crate::cache;
 use crate::falls::check_start;
 use crate::simulate::{resolved, set_model};
+use crate::{cache, forecast, say};
 
 /// `statistics.json`; SI units.
 #[derive(Debug, Serialize)]
@@ -53,15 +57,17 @@ pub(crate) fn ensemble(options: &Ensemble, bars: &Bars) -> Result<()> {
         .clone()
         .unwrap_or_else(|| PathBuf::from("out").join(format!("{}-ensemble", scene.name)));
 
+    let _claim = Claim::folder(&folder)?;
     let started = Instant::now();
     let baked = cache::bake(&scene, bars)?;
     let bake = started.elapsed().as_secs_f64();
     let body = &baked.bake.body;
     let stepper = baking::stepper(&scene, &baked.bake)?;
     check_start(&scene, &baked, &Hull::new(&body.surface.vertices))?;
+    forecast(&scene, body, options.runs)?;
 
     let started = Instant::now();
-    let falls = ensemble::run(&scene, body, &stepper, options.runs, bars);
+    let falls = bars.stoppable(|| ensemble::run(&scene, body, &stepper, options.runs, bars));
     let run = started.elapsed().as_secs_f64();
     bars.clear();
     if falls.is_empty() {
@@ -77,6 +83,16 @@ pub(crate) fn ensemble(options: &Ensemble, bars: &Bars) -> Result<()> {
         );
     }
     Ok(())
+}
+
+fn forecast(scene: &Scene, body: &Body, runs: u32) -> Result<()> {
+    let seconds = forecast::seconds(scene, body);
+    let steps = (seconds / scene.time_step).max(1.0);
+    // Lists grow to twice what they hold; a row of the table takes some hundred bytes.
+    let samples = seconds * f64::from(SAMPLES_PER_SECOND) * size_of::<Vec3>() as f64;
+    let bytes = 2.0 * (size_of::<Fall>() as f64 + samples) + 200.0;
+    let need = Need::new(f64::from(runs) * bytes, f64::from(runs) * steps);
+    forecast::check(need, &format!("`--runs {runs}`"))
 }
 
 fn report(
@@ -130,9 +146,9 @@ fn write_all(folder: &Path, scene: &Scene, falls: &[Fall], report: &Report) -> R
 
 fn tell(options: &Ensemble, folder: &Path, report: &Report) -> Result<()> {
     for warning in &report.warnings {
-        eprintln!("warning: {warning}");
+        say::warning(warning);
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = say::out();
     if options.json {
         writeln!(out, "{}", serde_json::to_string_pretty(report)?)?;
         return Ok(());

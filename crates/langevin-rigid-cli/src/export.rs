@@ -5,13 +5,14 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use langevin_rigid_formats::export::{self, Format, Options, Recording, Up};
+use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::scene::{self, Scene};
 use langevin_rigid_formats::trajectory::{Trajectory, read_csv};
 use serde_json::Value;
 
 use crate::arguments::Export;
 use crate::bars::Bars;
-use crate::cache;
+use crate::{cache, forecast, say};
 
 pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     export::check(&options.format)?;
@@ -20,6 +21,8 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     let summary = summary(&options.run);
     let trajectories = trajectories(&options.run, &summary)?;
     let scene = scene_of(&options.run, &summary)?;
+    forecast(options, &trajectories)?;
+    let _claim = Claim::folder(folder)?;
     let baked = cache::bake(&scene, bars)?;
     bars.clear();
     let run = Recording {
@@ -32,9 +35,9 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
         up: options.up,
     };
     if options.up == Up::Z && options.format.contains(&Format::Glb) {
-        eprintln!("note: glb has +Y up by definition; programs turn it to their own axes");
+        say::note("glb has +Y up by definition; programs turn it to their own axes");
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = say::out();
     for &format in &options.format {
         let deviation = export::write(&run, format, folder, &how)?;
         let path = folder.join(format.file_name());
@@ -47,12 +50,21 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
             )?;
             let length = 2.0 * baked.bake.body.half_extents[0];
             if let Some(warning) = deviation.warning(options.fps, length) {
-                eprintln!("warning: {format}: {warning}");
+                say::warning(format!("{format}: {warning}"));
             }
         }
         writeln!(out)?;
     }
     Ok(())
+}
+
+fn forecast(options: &Export, trajectories: &[Trajectory]) -> Result<()> {
+    let ends = trajectories
+        .iter()
+        .filter_map(|t| Some(t.poses.last()?.time));
+    let seconds: f64 = ends.sum();
+    let need = forecast::kept(1, seconds, f64::INFINITY, Some(options.fps));
+    forecast::check(need, &format!("`--fps {:?}`", options.fps))
 }
 
 /// The table of a run is what everything else is made from.

@@ -8,12 +8,14 @@ use langevin_rigid::{Ending, Hull, NoiseStream, State, StepError, Stepper, run};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::advance::advance;
 use langevin_rigid_formats::baking::Baked;
+use langevin_rigid_formats::budget;
 use langevin_rigid_formats::ensemble::side_by_side;
 use langevin_rigid_formats::scene::Scene;
 use langevin_rigid_formats::trajectory::Trajectory;
 use rayon::prelude::*;
 
 use crate::bars::Bars;
+use crate::forecast;
 
 /// One body from its release to how it ended.
 pub(crate) struct Fall {
@@ -21,6 +23,8 @@ pub(crate) struct Fall {
     /// The release first.
     pub(crate) states: Vec<State>,
     pub(crate) ended: Result<Ending, StepError>,
+    /// Whether it was stopped because memory holds no more of it.
+    pub(crate) full: bool,
 }
 
 impl Fall {
@@ -28,6 +32,7 @@ impl Fall {
         match self.ended {
             Ok(Ending::Ground) => "ground",
             Ok(Ending::Time) => "time",
+            Ok(Ending::Stopped) if self.full => "memory",
             Ok(Ending::Stopped) => "interrupted",
             Err(_) => "diverged",
         }
@@ -48,6 +53,7 @@ pub(crate) fn drop_bodies(
     bars: &Bars,
 ) -> Vec<Fall> {
     let done = AtomicU32::new(0);
+    let most = budget::spare() / (u64::from(bodies) * forecast::STATE as u64);
     let falls: Vec<Option<Fall>> = (0..bodies)
         .into_par_iter()
         .with_max_len(1)
@@ -65,12 +71,16 @@ pub(crate) fn drop_bodies(
                     bars.report("simulating", fraction(scene, state));
                 }
             };
-            let fall = drop_body(&own, stepper, hull, body, bars, report);
+            let stop = |kept: usize| bars.cancelled() || kept as u64 >= most;
+            let fall = drop_body(&own, stepper, hull, body, stop, report);
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             if bodies > 1 {
                 bars.report("simulating", f64::from(done) / f64::from(bodies));
             }
-            Some(fall)
+            Some(Fall {
+                full: fall.states.len() as u64 >= most,
+                ..fall
+            })
         })
         .collect();
     falls.into_iter().flatten().collect()
@@ -81,7 +91,7 @@ fn drop_body(
     stepper: &Stepper,
     hull: &Hull,
     body: u32,
-    bars: &Bars,
+    stop: impl Fn(usize) -> bool,
     report: impl Fn(&State),
 ) -> Fall {
     let noise = NoiseStream {
@@ -101,7 +111,7 @@ fn drop_body(
             if state.step % 4096 == 0 {
                 report(state);
             }
-            if bars.cancelled() {
+            if stop(states.len()) {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
@@ -112,6 +122,7 @@ fn drop_body(
         body,
         states,
         ended,
+        full: false,
     }
 }
 

@@ -11,12 +11,15 @@ mod crowd;
 mod ensemble;
 mod export;
 mod falls;
+mod forecast;
 mod meshes;
 mod pictures;
 mod regimes;
 mod repair;
 mod reproduce;
+mod say;
 mod scenes;
+mod signals;
 mod simulate;
 mod summary;
 mod turbulence;
@@ -27,9 +30,6 @@ use clap::Parser;
 
 use arguments::{Arguments, Command};
 use bars::Bars;
-
-/// Exit code of a run that was interrupted, as shells have it for Ctrl-C.
-const INTERRUPTED: u8 = 130;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -54,15 +54,15 @@ fn main() -> ExitCode {
     };
     bars.clear();
     match done {
-        Ok(()) if bars.interrupted() => ExitCode::from(INTERRUPTED),
+        Ok(()) if bars.interrupted() => ExitCode::from(bars.exit_code()),
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(_) if bars.interrupted() => {
-            eprintln!("interrupted before there was a result; nothing was written");
-            ExitCode::from(INTERRUPTED)
+            say::aside("interrupted before there was a result; nothing was written");
+            ExitCode::from(bars.exit_code())
         }
         Err(error) => {
-            eprintln!("error: {error:#}");
+            say::error(format!("{error:#}"));
             ExitCode::FAILURE
         }
     }

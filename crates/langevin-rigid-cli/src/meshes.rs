@@ -5,6 +5,8 @@ use std::path::Path;
 use anyhow::Result;
 use langevin_rigid_formats::mesh::{LengthUnit, ParseError, RawMesh, ReadError, read_mesh};
 
+use crate::say;
+
 /// Reads a mesh, in metres where neither the command nor the format says otherwise; what the reader has
 /// to say goes to the other stream.
 pub(crate) fn read(path: &Path, unit: Option<LengthUnit>) -> Result<RawMesh> {
@@ -16,7 +18,7 @@ pub(crate) fn read(path: &Path, unit: Option<LengthUnit>) -> Result<RawMesh> {
         read => read,
     }?;
     for notice in &raw.notices {
-        eprintln!("note: {notice}");
+        say::note(notice);
     }
     Ok(raw)
 }

@@ -16,6 +16,7 @@ use rayon::prelude::*;
 
 use crate::arguments::{Shown, Simulate, Viewpoint};
 use crate::bars::Bars;
+use crate::say;
 
 /// Frames drawn at a time: all before them are written when a film is interrupted.
 const BATCH: usize = 32;
@@ -116,11 +117,6 @@ pub(crate) fn film(shot: &Shot<'_>, folder: &Path, fps: f64, bars: &Bars) -> Res
 impl Written {
     /// Says what there is and how it becomes a film; aside when standard output carries JSON.
     pub(crate) fn tell(&self, aside: bool) -> Result<()> {
-        let mut out: Box<dyn Write> = if aside {
-            Box::new(std::io::stderr())
-        } else {
-            Box::new(std::io::stdout())
-        };
         let Self {
             folder,
             frames,
@@ -132,17 +128,17 @@ impl Written {
         } else {
             String::new()
         };
-        writeln!(
-            out,
-            "  wrote {frames}{all} frames to {}; a film of them:",
-            folder.display()
-        )?;
         // The count keeps the frames of an older, longer film in the same folder out of this one.
-        writeln!(
-            out,
-            "  ffmpeg -framerate {fps} -i '{}' -frames:v {frames} -pix_fmt yuv420p film.mp4",
+        let text = format!(
+            "  wrote {frames}{all} frames to {}; a film of them:\n  ffmpeg -framerate {fps} -i '{}' \
+             -frames:v {frames} -pix_fmt yuv420p film.mp4",
+            folder.display(),
             folder.join("frame-%05d.png").display()
-        )?;
+        );
+        match aside {
+            true => say::aside(&text),
+            false => writeln!(say::out(), "{text}")?,
+        }
         Ok(())
     }
 }

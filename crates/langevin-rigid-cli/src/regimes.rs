@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use anyhow::{Result, bail};
 use langevin_rigid_formats::ensemble::Motion;
-use langevin_rigid_formats::files;
+use langevin_rigid_formats::files::{self, Claim};
 use langevin_rigid_formats::picture::{
     PictureOptions, Pose, Subject, View, regime_map, trajectory_picture,
 };
@@ -17,6 +17,7 @@ use serde::Serialize;
 
 use crate::arguments::Regimes;
 use crate::bars::Bars;
+use crate::say;
 
 /// Length of the path in a strobe picture, diameters or chords.
 const STROBE: f64 = 22.0;
@@ -59,7 +60,8 @@ pub(crate) fn regimes(options: &Regimes, bars: &Bars) -> Result<()> {
     let started = Instant::now();
     let [inertia_ratios, reynolds] = options.grid;
     let cases = regimes::cases(inertia_ratios, reynolds);
-    let runs = regimes::run(&cases, bars)?;
+    let _claim = Claim::folder(&options.out)?;
+    let runs = bars.stoppable(|| regimes::run(&cases, bars))?;
     bars.clear();
     if runs.is_empty() {
         bail!("no run came to an end");
@@ -218,9 +220,9 @@ fn strobe(path: &Path, motion: Motion, case: &Case) -> Result<()> {
 
 fn tell(options: &Regimes, report: &Report, pictures: &[String]) -> Result<()> {
     for warning in &report.warnings {
-        eprintln!("warning: {warning}");
+        say::warning(warning);
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = say::out();
     if options.json {
         writeln!(out, "{}", serde_json::to_string_pretty(report)?)?;
         return Ok(());

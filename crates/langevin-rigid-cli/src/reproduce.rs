@@ -3,25 +3,30 @@
 use std::io::Write;
 
 use anyhow::Result;
+use langevin_rigid_formats::budget::Need;
+use langevin_rigid_formats::files::Claim;
 use langevin_rigid_report::{Options, PARTS, Part};
 
 use crate::arguments::Reproduce;
 use crate::bars::Bars;
-use crate::cache;
+use crate::{cache, forecast, say};
+
+/// Steps and memory of a seed in a part, at the least.
+const SEED: [f64; 2] = [500.0, 1e4];
 
 pub(crate) fn reproduce(options: &Reproduce, bars: &Bars) -> Result<()> {
     // The order of the page, whatever the order asked for; each part once.
     let wanted = |part: &&Part| options.only.is_empty() || options.only.contains(part);
-    let report = langevin_rigid_report::reproduce(
-        &Options {
-            parts: PARTS.iter().filter(wanted).copied().collect(),
-            seeds: options.seeds,
-            first_seed: options.seed,
-            cache: cache::folder(),
-        },
-        &options.out,
-        bars,
-    )?;
+    let plan = Options {
+        parts: PARTS.iter().filter(wanted).copied().collect(),
+        seeds: options.seeds,
+        first_seed: options.seed,
+        cache: cache::folder(),
+    };
+    check(options)?;
+    let _claim = Claim::folder(&options.out)?;
+    let work = || langevin_rigid_report::reproduce(&plan, &options.out, bars);
+    let report = bars.stoppable(work)?;
     bars.clear();
     if report.sections.is_empty() {
         anyhow::bail!("interrupted before a part was finished");
@@ -29,10 +34,22 @@ pub(crate) fn reproduce(options: &Reproduce, bars: &Bars) -> Result<()> {
     let names: Vec<&str> = report.sections.iter().map(|s| s.id).collect();
     let state = if report.complete { "" } else { ", interrupted" };
     writeln!(
-        std::io::stdout(),
+        say::out(),
         "wrote {} ({}{state})",
         report.page.display(),
         names.join(", ")
     )?;
     Ok(())
+}
+
+fn check(options: &Reproduce) -> Result<()> {
+    let (seeds, first) = (options.seeds, options.seed);
+    if first.checked_add(u64::from(seeds) - 1).is_none() {
+        anyhow::bail!(
+            "there are no {seeds} seeds from `--seed {first}` on: the largest is {}; begin lower",
+            u64::MAX
+        );
+    }
+    let [steps, bytes] = SEED.map(|each| f64::from(seeds) * each);
+    forecast::check(Need::new(bytes, steps), &format!("`--seeds {seeds}`"))
 }

@@ -6,17 +6,20 @@ use std::time::Instant;
 
 use anyhow::{Result, bail};
 use langevin_rigid::{Hull, Integrator, Model};
+use langevin_rigid_formats::baking::Baked;
 use langevin_rigid_formats::export::{self, ExportError, Format, Options, Recording};
+use langevin_rigid_formats::files::Claim;
+use langevin_rigid_formats::picture::Film;
 use langevin_rigid_formats::scene::{self, Scene};
 use langevin_rigid_formats::trajectory::Trajectory;
 use langevin_rigid_formats::{baking, files};
 
 use crate::arguments::Simulate;
 use crate::bars::Bars;
-use crate::cache;
 use crate::falls::{Fall, check_start, drop_bodies};
 use crate::pictures::{self, Shot};
 use crate::summary::Summary;
+use crate::{cache, forecast, say};
 
 pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     export::check(&options.format)?;
@@ -27,15 +30,18 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
         .clone()
         .unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
 
+    let _claims = claims(options, &folder)?;
     let started = Instant::now();
     let baked = cache::bake(&scene, bars)?;
     let bake_seconds = started.elapsed().as_secs_f64();
     let stepper = baking::stepper(&scene, &baked.bake)?;
     let hull = Hull::new(&baked.bake.body.surface.vertices);
     check_start(&scene, &baked, &hull)?;
+    forecast(options, &scene, &baked)?;
 
     let started = Instant::now();
-    let falls = drop_bodies(&scene, &baked, &stepper, &hull, options.bodies, bars);
+    let work = || drop_bodies(&scene, &baked, &stepper, &hull, options.bodies, bars);
+    let falls = bars.stoppable(work);
     let run_seconds = started.elapsed().as_secs_f64();
 
     let mut summary = Summary::new(&scene, &baked, &stepper, &falls);
@@ -55,7 +61,10 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     };
     let formats = write_all(options, &folder, &run, &shot, &mut summary)?;
     let film = match &options.frames {
-        Some(folder) => Some(pictures::film(&shot, folder, options.fps, bars)?),
+        Some(folder) => {
+            let work = || pictures::film(&shot, folder, options.fps, bars);
+            Some(bars.stoppable(work)?)
+        }
         None => None,
     };
     bars.clear();
@@ -63,6 +72,7 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     if let Some(film) = film {
         film.tell(options.json)?;
     }
+    fail_if_full(&falls, &folder)?;
     fail_if_diverged(&falls, &folder)?;
     Ok(formats?)
 }
@@ -70,6 +80,53 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
 fn missing(asked: u32, begun: usize) -> Option<String> {
     let some = begun < asked as usize;
     some.then(|| format!("interrupted: {begun} of {asked} bodies had been released"))
+}
+
+/// The folders that are written to, tried before there is anything to lose.
+fn claims(options: &Simulate, folder: &Path) -> Result<Vec<Claim>> {
+    let mut claims = vec![Claim::folder(folder)?];
+    if let Some(frames) = &options.frames {
+        let same = frames.canonicalize().ok() == folder.canonicalize().ok();
+        if !same {
+            claims.push(Claim::folder(frames)?);
+        }
+    }
+    Ok(claims)
+}
+
+fn forecast(options: &Simulate, scene: &Scene, baked: &Baked) -> Result<()> {
+    let seconds = forecast::seconds(scene, &baked.bake.body);
+    let frames = seconds * options.fps;
+    if options.frames.is_some() && frames > Film::MOST_FRAMES as f64 {
+        bail!(
+            "`--frames` at {:?} frames a second (`--fps`) would take {frames:.3e} pictures, and a film \
+             has {} at most: ask for fewer a second, or end earlier (`--duration`)",
+            options.fps,
+            Film::MOST_FRAMES
+        );
+    }
+    let animated = |f: &Format| matches!(f, Format::Glb | Format::Usd);
+    let fps = options.format.iter().any(animated).then_some(options.fps);
+    let need = forecast::kept(options.bodies, seconds, scene.time_step, fps);
+    let what = format!(
+        "`--bodies {} --fps {:?}` for {seconds:.3} s in steps of {:?} s (`--duration`, `--dt`)",
+        options.bodies, options.fps, scene.time_step
+    );
+    forecast::check(need, &what)
+}
+
+/// What a body did before memory was full is kept all the same.
+fn fail_if_full(falls: &[Fall], folder: &Path) -> Result<()> {
+    let Some(fall) = falls.iter().find(|fall| fall.full) else {
+        return Ok(());
+    };
+    bail!(
+        "body {} was stopped: {} states, and memory holds no more; give a shorter `--duration` or a larger \
+         `--dt`\nwhat it did until then is in {}",
+        fall.body,
+        fall.states.len(),
+        folder.display()
+    )
 }
 
 /// What a body did before it diverged is kept all the same.
@@ -170,9 +227,9 @@ pub(crate) fn resolved(scene: &Scene) -> Result<String> {
 
 fn tell(options: &Simulate, folder: &Path, summary: &Summary) -> Result<()> {
     for warning in &summary.warnings {
-        eprintln!("warning: {warning}");
+        say::warning(warning);
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = say::out();
     if options.json {
         writeln!(out, "{}", serde_json::to_string_pretty(summary)?)?;
         return Ok(());

@@ -25,7 +25,7 @@ pub(crate) struct Summary {
     pub(crate) endings: BTreeMap<&'static str, usize>,
     pub(crate) steps: u64,
     pub(crate) duration: f64,
-    /// Why the run ended: ground, time, interrupted or diverged.
+    /// Why the run ended: ground, time, interrupted, memory or diverged.
     pub(crate) ending: &'static str,
     pub(crate) triangles: usize,
     pub(crate) mass: f64,

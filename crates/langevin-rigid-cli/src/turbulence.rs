@@ -5,14 +5,16 @@ use std::io::Write as _;
 
 use anyhow::Result;
 use langevin_rigid::{Turbulence as Sample, TurbulenceHistory};
-use langevin_rigid_formats::{baking, files, scene};
+use langevin_rigid_formats::files::{self, Claim};
+use langevin_rigid_formats::{baking, scene};
 
 use crate::arguments::Turbulence;
 use crate::bars::Bars;
-use crate::cache;
+use crate::{cache, say};
 
 pub(crate) fn turbulence(options: &Turbulence, bars: &Bars) -> Result<()> {
     let scene = scene::find(&options.scene)?;
+    let _claim = options.out.as_deref().map(Claim::file).transpose()?;
     let bake = cache::bake(&scene, bars)?.bake;
     let history = match bake.history {
         Some(history) => history,
@@ -21,7 +23,7 @@ pub(crate) fn turbulence(options: &Turbulence, bars: &Bars) -> Result<()> {
     let table = table(&history);
     match &options.out {
         Some(path) => files::write(path, table.as_bytes())?,
-        None => std::io::stdout().write_all(table.as_bytes())?,
+        None => say::out().write_all(table.as_bytes())?,
     }
     Ok(())
 }

@@ -361,7 +361,7 @@ fn the_command_line_itself_is_checked() {
     for arguments in [
         &["simulate", "paper-75", "--dt", "-1"][..],
         &["simulate", "paper-75", "--model", "magic"],
-        &["added-mass", "x.obj", "--unit", "inch"],
+        &["added-mass", "x.obj", "--unit", "furlong"],
         &["fly"],
     ] {
         assert_eq!(place.run(arguments).code, 2, "{arguments:?}");

@@ -8,7 +8,7 @@ use langevin_rigid::{
     falling_speed,
 };
 use langevin_rigid_bake::added_mass::Warning;
-use langevin_rigid_bake::body::{BodyBakeError, bake_body};
+use langevin_rigid_bake::body::{BodyBakeError, bake_body, could_be};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::ShapeError;
 use langevin_rigid_bake::turbulence::{FlowOptions, TurbulenceError, turbulence_history};
@@ -99,7 +99,10 @@ pub struct Baked {
 }
 
 /// Bakes a scene, or takes its bake from the folder `cache` if nothing that it depends on has
-/// changed.
+/// changed: mesh, choices and the code that bakes.
+///
+/// What is kept is not believed: its mass, shape and axes are computed again, and one that is damaged or does
+/// not fit is baked anew with a notice.
 ///
 /// # Errors
 /// See [`SceneBakeError`]; trouble with the cache is none, it is reported in the result.
@@ -108,16 +111,25 @@ pub fn bake_scene(
     cache: Option<&Path>,
     progress: &dyn Progress,
 ) -> Result<Baked, SceneBakeError> {
-    let (mesh, notices) = mesh(scene)?;
+    let (mesh, mut notices) = mesh(scene)?;
     let fingerprint = fingerprint(scene, &mesh);
     let place = cache.map(|folder| cache_file(folder, &fingerprint));
-    if let Some(bake) = place.as_deref().and_then(|p| from_cache(p, fingerprint)) {
-        return Ok(Baked {
-            bake,
-            notices,
-            cached: true,
-            cache_trouble: None,
-        });
+    let kept = place.as_deref().map(|p| from_cache(p, fingerprint));
+    match kept {
+        Some(Ok(Some(bake))) if could_be(&bake.body, &mesh, &scene.body.spec) => {
+            return Ok(Baked {
+                bake,
+                notices,
+                cached: true,
+                cache_trouble: None,
+            });
+        }
+        None | Some(Ok(None)) => {}
+        Some(Err(reason)) => notices.push(distrusted(place.as_deref(), &reason)),
+        Some(Ok(Some(_))) => notices.push(distrusted(
+            place.as_deref(),
+            "its numbers are not those of this body",
+        )),
     }
     let bake = bake_mesh(scene, &mesh, fingerprint, progress)?;
     let cache_trouble = place.and_then(|p| files::write(&p, &bake.to_bytes()).err());
@@ -128,6 +140,11 @@ pub fn bake_scene(
         cached: false,
         cache_trouble,
     })
+}
+
+fn distrusted(place: Option<&Path>, reason: &str) -> String {
+    let place = place.unwrap_or(Path::new("")).display();
+    format!("the kept bake `{place}` was not used ({reason}); the body was baked anew")
 }
 
 fn bake_mesh(
@@ -226,16 +243,31 @@ fn cache_file(folder: &Path, fingerprint: &[u8; 32]) -> PathBuf {
     folder.join(format!("{name}.lrbake"))
 }
 
-/// A cached bake that is whole and of the right fingerprint; anything else is baked anew.
-fn from_cache(place: &Path, fingerprint: [u8; 32]) -> Option<Bake> {
-    let bake = Bake::from_bytes(&std::fs::read(place).ok()?).ok()?;
-    (bake.fingerprint == fingerprint).then_some(bake)
+/// A cached bake that is whole and of the right fingerprint; none if there is no such file.
+fn from_cache(place: &Path, fingerprint: [u8; 32]) -> Result<Option<Bake>, String> {
+    let bytes = match std::fs::read(place) {
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        bytes => bytes.map_err(|e| e.to_string())?,
+    };
+    let bake = Bake::from_bytes(&bytes).map_err(|e| e.to_string())?;
+    match bake.fingerprint == fingerprint {
+        true => Ok(Some(bake)),
+        false => Err("it is of something else".into()),
+    }
 }
 
-/// Hash of everything that a bake depends on.
+/// Hash of everything that a bake depends on: code and input.
 fn fingerprint(scene: &Scene, mesh: &TriMesh) -> [u8; 32] {
     let mut hash = Sha256::new();
-    hash.update(concat!("langevin-rigid ", env!("CARGO_PKG_VERSION")));
+    for code in [
+        "langevin-rigid",
+        langevin_rigid::VERSION,
+        env!("CARGO_PKG_VERSION"),
+        langevin_rigid_bake::SOURCES,
+    ] {
+        hash.update(code);
+        hash.update([0]);
+    }
     for x in mesh.vertices().as_flattened() {
         hash.update(x.to_le_bytes());
     }

@@ -4,6 +4,7 @@
 pub mod added_mass;
 pub mod advance;
 pub mod baking;
+pub mod budget;
 pub mod ensemble;
 pub mod export;
 pub mod files;

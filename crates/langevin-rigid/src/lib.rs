@@ -57,3 +57,6 @@ pub use turbulence::{
     HistoryError, LangevinCoefficients, Turbulence, TurbulenceHistory, TurbulenceSource,
     kolmogorov_c0,
 };
+
+/// Version of this crate.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -17,6 +17,17 @@ const LARGE: u64 = 1 << 31;
 /// The arrays `body` (n), `t` (n), `position` (n, 3), `orientation` (n, 4), `velocity` and
 /// `angular_velocity` (n, 3).
 pub(super) fn write(trajectories: &[Trajectory], out: impl Write + Seek) -> io::Result<()> {
+    let mut out = FirstError {
+        out,
+        error: None,
+        place: 0,
+        end: 0,
+    };
+    let written = archive(trajectories, &mut out);
+    out.error.map_or(written, Err)
+}
+
+fn archive(trajectories: &[Trajectory], out: impl Write + Seek) -> io::Result<()> {
     let rows = trajectories.iter().map(|t| t.len() as u64).sum();
     let mut file = Archive {
         zip: ZipWriter::new(out),
@@ -67,5 +78,74 @@ impl<W: Write + Seek> Archive<W> {
             .begin_nd()?;
         array.extend(values)?;
         array.finish()
+    }
+}
+
+/// Keeps the first error of `out`, which begins empty. Nothing is written after it, and the archive is none the
+/// wiser: it would try to end itself all the same, and print that it cannot.
+struct FirstError<W> {
+    out: W,
+    error: Option<io::Error>,
+    place: u64,
+    end: u64,
+}
+
+impl<W> FirstError<W> {
+    fn until_error<T>(&mut self, work: impl FnOnce(&mut W) -> io::Result<T>) {
+        if self.error.is_none() {
+            self.error = work(&mut self.out).err();
+        }
+    }
+}
+
+impl<W: Write> Write for FirstError<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.until_error(|out| out.write_all(bytes));
+        self.place += bytes.len() as u64;
+        self.end = self.end.max(self.place);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.until_error(Write::flush);
+        Ok(())
+    }
+}
+
+impl<W: Seek> Seek for FirstError<W> {
+    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+        self.until_error(|out| out.seek(to));
+        self.place = match to {
+            io::SeekFrom::Start(place) => place,
+            io::SeekFrom::Current(by) => self.place.saturating_add_signed(by),
+            io::SeekFrom::End(by) => self.end.saturating_add_signed(by),
+        };
+        Ok(self.place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use langevin_rigid::State;
+
+    use super::*;
+
+    #[test]
+    fn a_full_disk_is_told_wherever_it_fills() {
+        let trajectories = [Trajectory::new(0, &[State::default(); 3])];
+        let mut whole = Cursor::new(Vec::new());
+        write(&trajectories, &mut whole).unwrap();
+        let length = whole.get_ref().len();
+        for room in (0..length).step_by(7) {
+            let mut full = Cursor::new(vec![0; room]);
+            let error = write(&trajectories, Cursor::new(full.get_mut().as_mut_slice()));
+            assert_eq!(
+                error.unwrap_err().kind(),
+                io::ErrorKind::WriteZero,
+                "{room}"
+            );
+        }
     }
 }
