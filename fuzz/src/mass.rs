@@ -23,8 +23,8 @@ const COARSE: added_mass::Options = added_mass::Options {
 /// Makes a mesh of the bytes, mends it, and solves for its added mass.
 pub(crate) fn repair_and_solve(bytes: &[u8]) {
     let numbers = &mut Numbers::new(bytes);
-    let options = options(numbers);
     let soup = soup(numbers);
+    let options = options(numbers, soup.size());
     let body = match repair(&soup.vertices, &soup.triangles, &options, &()).body {
         Err(error) => return assert!(!error.to_string().is_empty()),
         Ok(body) => body,
@@ -185,8 +185,17 @@ fn add_copy(soup: &mut Soup, numbers: &mut Numbers) {
     soup.triangles.extend(triangles);
 }
 
-fn options(numbers: &mut Numbers) -> Options {
-    let mut given = |chance: u8| numbers.any::<u8>() < chance;
+impl Soup {
+    /// The largest coordinate (m).
+    fn size(&self) -> f64 {
+        let coordinates = self.vertices.as_flattened().iter();
+        coordinates.fold(0.0, |most, x| most.max(x.abs()))
+    }
+}
+
+/// Choices for a mesh of that size; a wrap takes as long as it is fine, so that it is coarse here.
+fn options(numbers: &mut Numbers, size: f64) -> Options {
+    let mut given = |share: u8| numbers.any::<u8>() > u8::MAX - share;
     let [weld, fill, thickness, triangles, wrap, largest] =
         [32, 32, 64, 32, 16, 64].map(&mut given);
     Options {
@@ -194,7 +203,7 @@ fn options(numbers: &mut Numbers) -> Options {
         fill: fill.then(|| numbers.below(50)),
         thickness: thickness.then(|| numbers.coordinate()),
         triangles: triangles.then(|| numbers.below(TRIANGLES)),
-        wrap: wrap.then(|| numbers.coordinate()),
+        wrap: wrap.then(|| size * numbers.between(0.1, 2.0)),
         largest,
     }
 }
