@@ -13,6 +13,7 @@ mod run;
 mod scene;
 mod steps;
 
+use langevin_rigid::Model;
 use langevin_rigid_formats::mesh::MeshFormat;
 
 /// Something that takes bytes from anywhere.
@@ -27,7 +28,7 @@ pub struct Target {
 }
 
 /// All of them. One more needs a file in `fuzz_targets` and an entry in `Cargo.toml` besides its line.
-pub const TARGETS: [Target; 12] = [
+pub const TARGETS: [Target; 13] = [
     Target::new("obj", |bytes| mesh::read(bytes, MeshFormat::Obj)),
     Target::new("stl", |bytes| mesh::read(bytes, MeshFormat::Stl)),
     Target::new("ply", |bytes| mesh::read(bytes, MeshFormat::Ply)),
@@ -39,7 +40,14 @@ pub const TARGETS: [Target; 12] = [
     Target::new("table", run::read),
     Target::new("export", run::export).after(run::prepare),
     Target::new("mass", mass::repair_and_solve).after(mass::prepare),
-    Target::new("steps", steps::fall).after(steps::prepare),
+    Target::new("steps", |bytes| {
+        steps::fall(bytes, &[Model::Separated, Model::Kirchhoff]);
+    })
+    .after(steps::prepare),
+    Target::new("consistent", |bytes| {
+        steps::fall(bytes, &[Model::Consistent]);
+    })
+    .after(steps::prepare),
 ];
 
 impl Target {

@@ -28,12 +28,12 @@ const HONEY: Fluid = Fluid {
     velocity: [0.0; 3],
 };
 
-/// Lets a body fall: every state is finite, and only one that was absurd at release is an error.
-pub(crate) fn fall(bytes: &[u8]) {
+/// Lets a body fall under one of the models: every state is finite, and only one that was absurd at release is an error.
+pub(crate) fn fall(bytes: &[u8], models: &[Model]) {
     let numbers = &mut Numbers::new(bytes);
     let body = body(numbers);
     let absurd = numbers.below(8) == 7;
-    let scene = scene(numbers, absurd);
+    let scene = scene(numbers, models, absurd);
     let bake = Bake {
         body,
         history: Some(history(numbers)),
@@ -209,7 +209,7 @@ fn release(numbers: &mut Numbers, absurd: bool) -> State {
     }
 }
 
-fn scene(numbers: &mut Numbers, absurd: bool) -> Scene {
+fn scene(numbers: &mut Numbers, models: &[Model], absurd: bool) -> Scene {
     let text = r#"
         fluid.preset = "air"
         run = { time_step = 0.01, duration = 1.0 }
@@ -218,7 +218,7 @@ fn scene(numbers: &mut Numbers, absurd: bool) -> Scene {
     let mut scene = Scene::parse("fuzz", "fuzz.toml", text).unwrap();
     scene.time_step = TIME_STEP;
     scene.seed = numbers.any();
-    scene.settings.model = numbers.among(&[Model::Separated, Model::Consistent, Model::Kirchhoff]);
+    scene.settings.model = numbers.among(models);
     scene.settings.turbulence = match numbers.below(4) {
         0 => TurbulenceSource::History,
         1 => TurbulenceSource::BodyDriven {
