@@ -1,0 +1,3 @@
+//! The target `bake`.
+#![cfg_attr(fuzzing, no_main)]
+langevin_rigid_fuzz::target!("bake");

@@ -1,0 +1,3 @@
+//! The target `mass`.
+#![cfg_attr(fuzzing, no_main)]
+langevin_rigid_fuzz::target!("mass");

@@ -1,0 +1,3 @@
+//! The target `obj`.
+#![cfg_attr(fuzzing, no_main)]
+langevin_rigid_fuzz::target!("obj");
