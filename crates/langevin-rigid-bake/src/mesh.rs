@@ -25,6 +25,7 @@ mod weld;
 mod wrap;
 
 pub use boundary::Hole;
+pub use check::fitting_wrap;
 pub use edges::{Edge, open_edge_count};
 pub use error::{EdgeSite, MeshError};
 pub use proxy::ProxyError;

@@ -268,11 +268,11 @@ Examples:
 
 The tensor is 6 x 6, linear part first, axes of the mesh, in SI (kg, kg m, kg m^2). Every format
 states its conventions; docs/destinations says what to do with it.
-Reads OBJ, STL, PLY, glTF and GLB.")]
+Reads OBJ, STL, PLY, glTF, GLB and Collada.")]
 pub(crate) struct AddedMass {
     /// The mesh file.
     pub(crate) mesh: PathBuf,
-    /// Unit of its coordinates (m, cm, mm, um, in, ft) [default: that of its format, or m].
+    /// Unit of its coordinates (m, cm, mm, um, in, ft) [default: that of the file, or m].
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<LengthUnit>,
     /// Thicken an open sheet to this thickness (m).
@@ -301,7 +301,8 @@ Examples:
   langevin-rigid check scan.ply --json
 
 A mesh never fails to be checked because it is bad: everything is reported in one go.
-Reads OBJ, STL, PLY, glTF and GLB. Lengths are in metres unless they say otherwise.
+Reads OBJ, STL, PLY, glTF, GLB and Collada. Lengths are in metres unless it or UNIT
+says otherwise.
 
 Exit codes:
   0    ready for `added-mass` and scenes
@@ -309,7 +310,7 @@ Exit codes:
 pub(crate) struct Check {
     /// The mesh file.
     pub(crate) mesh: PathBuf,
-    /// Unit of its coordinates (m, cm, mm, um, in, ft) [default: that of its format, or m].
+    /// Unit of its coordinates (m, cm, mm, um, in, ft) [default: that of the file, or m].
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<LengthUnit>,
     /// Print the report as JSON.
@@ -334,7 +335,7 @@ pub(crate) struct Repair {
     /// File to write, .obj (all digits) or .stl (single precision).
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
-    /// Unit of the mesh's coordinates (m, cm, mm, um, in, ft) [default: that of its format, or m].
+    /// Unit of the mesh's coordinates (m, cm, mm, um, in, ft) [default: that of the file, or m].
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<LengthUnit>,
     /// Weld vertices of open edges this close (m) [default: 1e-6 of the diagonal of the mesh's box].

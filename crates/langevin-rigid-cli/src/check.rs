@@ -27,7 +27,7 @@ pub(crate) fn check(options: &Check, bars: &Bars) -> Result<bool> {
     if bars.interrupted() {
         bail!("the check was interrupted");
     }
-    let report = Report::new(options, &survey, &remedy);
+    let report = Report::new(options, raw.unit, &survey, &remedy);
     bars.clear();
     let text = match options.json {
         true => serde_json::to_string_pretty(&report)? + "\n",

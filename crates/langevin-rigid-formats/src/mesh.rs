@@ -1,23 +1,26 @@
-//! Triangle meshes from files: OBJ, STL, PLY, glTF and GLB.
+//! Triangle meshes from files: OBJ, STL, PLY, glTF, GLB and Collada.
 //!
 //! [`read_mesh`] gives the triangles as they are in the file, in metres; [`RawMesh::body`] and
 //! [`RawMesh::sheet`] make a checked body of them. Polygons of any shape become triangles. Vertices that
 //! a format stores once per facet or seam are welded where their positions are equal to the last
-//! bit: always for STL and glTF, for OBJ and PLY where the surface is open otherwise; where it is open
+//! bit: always for STL and glTF, for OBJ, PLY and Collada where the surface is open otherwise; where it is open
 //! still, within a millionth of its size if that closes edges. What a reader tolerated it says in
 //! [`RawMesh::notices`].
 //!
 //! The readers take nothing in a file at its word: a damaged or hostile file gives a
 //! [`ParseError`], never a panic, and no more memory than the file's own length calls for.
 
+mod collada;
 mod error;
 mod foreign;
 mod gltf;
 mod obj;
 mod ply;
 mod polygon;
+mod proportion;
 mod stl;
 mod text;
+mod transform;
 mod unit;
 
 use std::path::Path;
@@ -25,12 +28,11 @@ use std::path::Path;
 use langevin_rigid_bake::mesh::{MeshError, TriMesh, close_seams, open_edge_count, weld};
 
 use foreign::Foreign;
-use polygon::fan;
 
 pub use error::{ParseError, Place, ReadError};
 pub use obj::write_obj;
 pub use stl::write_stl;
-pub use unit::{LengthUnit, UnknownUnit};
+pub use unit::{FileUnit, LengthUnit, UnknownUnit};
 
 /// Triangles as read from a file, unchecked; positions in metres.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -41,6 +43,8 @@ pub struct RawMesh {
     pub triangles: Vec<[u32; 3]>,
     /// What the reader passed over or took for something else, a sentence each, each kind once a file.
     pub notices: Vec<String>,
+    /// What the file's lengths were taken to be in.
+    pub unit: FileUnit,
 }
 
 impl RawMesh {
@@ -81,7 +85,7 @@ impl RawMesh {
     }
 
     /// With the seams closed that rounding left open.
-    fn seamless(self, unit: LengthUnit) -> RawMesh {
+    fn seamless(self) -> RawMesh {
         if open_edge_count(&self.triangles) == 0 {
             return self;
         }
@@ -92,13 +96,29 @@ impl RawMesh {
             vertices: closed.vertices,
             triangles: closed.triangles,
             notices: self.notices,
+            unit: self.unit,
         };
-        let distance = unit.to_metres(closed.distance);
+        let distance = mesh.unit.to_metres(closed.distance);
         mesh.note(format!(
             "welded {} vertices within {distance:.1e} m of another to close open edges",
             closed.welded
         ));
         mesh
+    }
+
+    /// Adds placed vertices and the triangles over them, turned over where they were mirrored.
+    fn append(
+        &mut self,
+        vertices: impl Iterator<Item = [f64; 3]>,
+        triangles: &[[u32; 3]],
+        mirrored: bool,
+    ) {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(vertices);
+        self.triangles.extend(triangles.iter().map(|t| {
+            let [a, b, c] = t.map(|corner| first + corner);
+            if mirrored { [a, c, b] } else { [a, b, c] }
+        }));
     }
 
     /// Drops vertices without a triangle.
@@ -120,7 +140,8 @@ impl RawMesh {
         self.notices.push(notice.into());
     }
 
-    fn in_metres(mut self, unit: LengthUnit) -> RawMesh {
+    fn in_metres(mut self) -> RawMesh {
+        let unit = self.unit;
         for x in self.vertices.as_flattened_mut() {
             *x = unit.to_metres(*x);
         }
@@ -141,6 +162,8 @@ pub enum MeshFormat {
     Gltf,
     /// glTF 2.0 as one binary file.
     Glb,
+    /// Collada 1.4 or 1.5.
+    Collada,
 }
 
 impl MeshFormat {
@@ -162,6 +185,8 @@ impl MeshFormat {
             Some(MeshFormat::Stl)
         } else if plain.trim_ascii_start().starts_with(b"{") {
             Some(MeshFormat::Gltf)
+        } else if collada::is_collada(plain) {
+            Some(MeshFormat::Collada)
         } else if obj::has_vertices(plain) {
             Some(MeshFormat::Obj)
         } else {
@@ -169,11 +194,11 @@ impl MeshFormat {
         }
     }
 
-    /// The unit of length that the format prescribes.
-    pub fn unit(self) -> Option<LengthUnit> {
+    /// Whether lengths have a unit by the format (metres in glTF) or by what each file states (Collada).
+    pub fn has_unit(self) -> bool {
         match self {
-            MeshFormat::Gltf | MeshFormat::Glb => Some(LengthUnit::M),
-            MeshFormat::Obj | MeshFormat::Stl | MeshFormat::Ply => None,
+            MeshFormat::Gltf | MeshFormat::Glb | MeshFormat::Collada => true,
+            MeshFormat::Obj | MeshFormat::Stl | MeshFormat::Ply => false,
         }
     }
 
@@ -185,17 +210,18 @@ impl MeshFormat {
             "ply" => Some(MeshFormat::Ply),
             "gltf" => Some(MeshFormat::Gltf),
             "glb" => Some(MeshFormat::Glb),
+            "dae" => Some(MeshFormat::Collada),
             _ => None,
         }
     }
 }
 
-/// Reads the triangles of a mesh file whose lengths are in `unit`, or in that of its format (metres for
-/// glTF).
+/// Reads the triangles of a mesh file whose lengths are in `unit`, or in that of the file (metres for
+/// glTF, what it states for Collada).
 ///
 /// The content decides on the format; the extension where the content does not. All objects of an
-/// OBJ file and all meshes of the default scene of a glTF file come together, placed by the scene's
-/// nodes; buffers of a `.gltf` file are looked for beside it.
+/// OBJ file and all meshes of the default scene of a glTF or Collada file come together, placed by the
+/// scene's nodes; buffers of a `.gltf` file are looked for beside it.
 ///
 /// ```no_run
 /// use langevin_rigid_formats::mesh::{LengthUnit, read_mesh};
@@ -258,23 +284,32 @@ pub fn parse_mesh(
     unit: Option<LengthUnit>,
     folder: Option<&Path>,
 ) -> Result<RawMesh, ParseError> {
-    let stated = format.unit();
-    let unit = unit.or(stated).ok_or(ParseError::NoUnit)?;
-    let mut mesh = match format {
-        MeshFormat::Obj => obj::parse(bytes)?.welded_if_open(),
-        MeshFormat::Stl => stl::parse(bytes)?.welded(),
-        MeshFormat::Ply => ply::parse(bytes)?.welded_if_open(),
-        MeshFormat::Gltf => gltf::parse(bytes, None, folder)?.welded(),
-        MeshFormat::Glb => gltf::parse_glb(bytes, folder)?.welded(),
+    if unit.is_none() && !format.has_unit() {
+        return Err(ParseError::NoUnit);
+    }
+    let metres = Some(FileUnit::Known(LengthUnit::M));
+    let (mut mesh, stated) = match format {
+        MeshFormat::Obj => (obj::parse(bytes)?.welded_if_open(), None),
+        MeshFormat::Stl => (stl::parse(bytes)?.welded(), None),
+        MeshFormat::Ply => (ply::parse(bytes)?.welded_if_open(), None),
+        MeshFormat::Gltf => (gltf::parse(bytes, None, folder)?.welded(), metres),
+        MeshFormat::Glb => (gltf::parse_glb(bytes, folder)?.welded(), metres),
+        MeshFormat::Collada => {
+            let (mesh, unit) = collada::parse(bytes)?;
+            (mesh.welded_if_open(), Some(unit))
+        }
     };
+    let unit = unit.map(FileUnit::Known).or(stated);
+    let unit = unit.ok_or(ParseError::NoUnit)?;
     if mesh.triangles.is_empty() {
         return Err(ParseError::NoTriangles);
     }
     if let Some(stated) = stated.filter(|&stated| stated != unit) {
-        let notice = format!("its lengths were taken to be in {unit}, its format says {stated}");
+        let notice = format!("its lengths were taken to be in {unit} in place of {stated}");
         mesh.notices.push(notice);
     }
-    Ok(mesh.seamless(unit).in_metres(unit))
+    mesh.unit = unit;
+    Ok(mesh.seamless().in_metres())
 }
 
 #[cfg(test)]

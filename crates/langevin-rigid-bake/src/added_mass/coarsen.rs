@@ -206,7 +206,8 @@ impl<'a> Round<'a> {
         for o in opposite {
             self.valence[o as usize] -= 1;
         }
-        self.valence[into as usize] += kept.len() - 2;
+        let valence = &mut self.valence[into as usize];
+        *valence = *valence + kept.len() - 2;
         let (quadric, from_, into_) = (self.quadrics[from as usize], from as usize, into as usize);
         self.quadrics[into_].add(&quadric);
         (self.touched[from_], self.touched[into_]) = (true, true);

@@ -228,11 +228,18 @@ pub(super) fn apart(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(),
         }
     } else {
         MeshError::PartsMeet {
+            wrap: fitting_wrap(bounding_box(vertices)),
             triangles: [a, b],
             position,
             count,
         }
     })
+}
+
+/// A size of a wrap that fits a body of some box (m): two digits of a fiftieth of its diagonal.
+pub fn fitting_wrap([low, high]: [[f64; 3]; 2]) -> f64 {
+    let size = 0.02 * norm(sub(high, low));
+    format!("{size:.1e}").parse().unwrap_or(size)
 }
 
 /// Checks the parts of a similarity transformation.

@@ -156,10 +156,12 @@ pub enum MeshError {
     },
     /// Closed parts overlap or touch.
     #[error(
-        "parts overlap or touch: {count} triangles meet others, the first triangle {} with {} of another part at ({:.6}, {:.6}, {:.6}) m: let `langevin-rigid repair` make one surface of them",
+        "parts overlap or touch: {count} triangles meet others, the first triangle {} with {} of another part at ({:.6}, {:.6}, {:.6}) m: make one surface of them with `langevin-rigid repair --wrap {wrap}`, or by a boolean union in the program that made them",
         triangles[0], triangles[1], position[0], position[1], position[2]
     )]
     PartsMeet {
+        /// A size of a wrap that fits the body (m): a fiftieth of the diagonal of its box.
+        wrap: f64,
         /// The first triangle that meets another, and that one.
         triangles: [usize; 2],
         /// A point they have in common (m).

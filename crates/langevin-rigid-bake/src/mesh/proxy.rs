@@ -1,5 +1,6 @@
 //! A coarser mesh in place of a fine one.
 
+use super::intersect::meetings;
 use super::{MeshError, TriMesh, repair};
 use crate::mesh::vector::{add, bounding_box, scale, sub};
 
@@ -26,7 +27,8 @@ impl TriMesh {
     ///
     /// Edges collapse by quadric error (meshoptimizer by A. Kapoulkine): the vertices are some of those of
     /// this mesh, scaled about their middle to restore the volume. A mesh with no more triangles is
-    /// returned as it is; one whose shape or topology needs more keeps more.
+    /// returned as it is; one whose shape or topology needs more keeps more, and so does one whose surface would
+    /// pass through itself.
     ///
     /// ```
     /// use langevin_rigid_bake::shapes::Shape;
@@ -40,15 +42,6 @@ impl TriMesh {
     /// # Errors
     /// [`ProxyError`]: too few triangles are asked for, or the result is not the surface of a body.
     pub fn proxy(&self, triangles: usize) -> Result<TriMesh, ProxyError> {
-        self.simplified(triangles, |_| Ok(()))
-    }
-
-    /// A proxy that `accept` finds no fault with.
-    pub(super) fn simplified(
-        &self,
-        triangles: usize,
-        accept: fn(&TriMesh) -> Result<(), MeshError>,
-    ) -> Result<TriMesh, ProxyError> {
         if triangles < 4 {
             return Err(ProxyError::TooFew(triangles));
         }
@@ -56,16 +49,20 @@ impl TriMesh {
             return Ok(self.clone());
         }
         let mut wanted = triangles;
+        let mut kept = Kept::new(self);
         let body = loop {
-            let kept = collapsed(&self.vertices, &self.triangles, wanted);
-            let simplified = kept.len();
-            let found = closed_or_mended(&self.vertices, kept)
-                .and_then(|body| accept(&body).map(|()| body));
-            match found {
+            let simplified = kept.collapsed(wanted);
+            let count = simplified.len();
+            let meet = meetings(&self.vertices, &simplified);
+            if !meet.is_empty() && count < self.triangles.len() {
+                kept.keep_around(meet.iter().map(|meeting| simplified[meeting.triangles[0]]));
+                continue;
+            }
+            match closed_or_mended(&self.vertices, simplified) {
                 Ok(body) => break body,
-                Err(error) if simplified >= self.triangles.len() / 2 => {
+                Err(error) if count >= self.triangles.len() / 2 => {
                     return Err(ProxyError::NoBody {
-                        triangles: simplified,
+                        triangles: count,
                         error,
                     });
                 }
@@ -94,22 +91,58 @@ fn closed_or_mended(vertices: &[[f64; 3]], triangles: Vec<[u32; 3]>) -> Result<T
     })
 }
 
-/// Triangles over some of the vertices, about `wanted` of them.
-fn collapsed(vertices: &[[f64; 3]], triangles: &[[u32; 3]], wanted: usize) -> Vec<[u32; 3]> {
-    // Single precision has room for what is left after centring.
-    let [low, high] = bounding_box(vertices);
-    let size = (0..3).fold(f64::MIN_POSITIVE, |s, k| f64::max(s, high[k] - low[k]));
-    let positions: Vec<[f32; 3]> = vertices
-        .iter()
-        .map(|v| std::array::from_fn(|k| ((v[k] - low[k]) / size) as f32))
-        .collect();
-    let kept = meshopt::simplify_decoder(
-        triangles.as_flattened(),
-        &positions,
-        3 * wanted,
-        f32::MAX,
-        meshopt::SimplifyOptions::Regularize,
-        None,
-    );
-    kept.as_chunks().0.to_vec()
+/// The vertices of a body that must be kept so that no part of its surface passes through another.
+struct Kept<'a> {
+    body: &'a TriMesh,
+    /// In single precision, which has room for what is left after centring.
+    positions: Vec<[f32; 3]>,
+    kept: Vec<bool>,
+    /// Rings of neighbours to keep next.
+    rings: usize,
+}
+
+impl Kept<'_> {
+    fn new(body: &TriMesh) -> Kept<'_> {
+        let [low, high] = bounding_box(&body.vertices);
+        let size = (0..3).fold(f64::MIN_POSITIVE, |s, k| f64::max(s, high[k] - low[k]));
+        let positions = body.vertices.iter();
+        Kept {
+            body,
+            positions: positions
+                .map(|v| std::array::from_fn(|k| ((v[k] - low[k]) / size) as f32))
+                .collect(),
+            kept: vec![false; body.vertices.len()],
+            rings: 2,
+        }
+    }
+
+    /// Triangles over some of the vertices, about `wanted` of them.
+    fn collapsed(&self, wanted: usize) -> Vec<[u32; 3]> {
+        let kept = meshopt::simplify_with_locks_decoder(
+            self.body.triangles.as_flattened(),
+            &self.positions,
+            &self.kept,
+            3 * wanted,
+            f32::MAX,
+            meshopt::SimplifyOptions::Regularize,
+            None,
+        );
+        kept.as_chunks().0.to_vec()
+    }
+
+    /// Keeps what is around the corners of some triangles, farther each time.
+    fn keep_around(&mut self, triangles: impl Iterator<Item = [u32; 3]>) {
+        for v in triangles.flatten() {
+            self.kept[v as usize] = true;
+        }
+        for _ in 0..self.rings {
+            let before = self.kept.clone();
+            for t in &self.body.triangles {
+                if t.iter().any(|&v| before[v as usize]) {
+                    t.iter().for_each(|&v| self.kept[v as usize] = true);
+                }
+            }
+        }
+        self.rings *= 2;
+    }
 }

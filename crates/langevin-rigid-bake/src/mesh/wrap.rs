@@ -83,11 +83,10 @@ pub(super) fn wrap(
     let pitch = offset / OFFSET;
     let (nodes, shape) = Grid::shape(&corners, pitch).ok_or(WrapError::Nothing)?;
     if nodes > MOST_NODES {
-        let advised = 1.01 * size * libm::cbrt(nodes / MOST_NODES);
         return Err(WrapError::TooFine {
             size,
             nodes,
-            advised,
+            advised: advised(&corners, size * libm::cbrt(nodes / MOST_NODES)),
         });
     }
     let grid = Grid::new(&corners, pitch, offset, shape);
@@ -100,6 +99,18 @@ pub(super) fn wrap(
         made: made.map(|t| body.area(t)).sum(),
         body,
     })
+}
+
+/// A size of two digits, `size` (m) or little more, that the memory has room for.
+fn advised(corners: &[grid::Corners], mut size: f64) -> f64 {
+    loop {
+        let digit = libm::pow(10.0, libm::floor(libm::log10(size)) - 1.0);
+        let rounded = digit * (size / digit).ceil();
+        match Grid::shape(corners, 0.5 * rounded / OFFSET) {
+            Some((nodes, _)) if nodes > MOST_NODES => size = rounded * 1.02,
+            _ => return rounded,
+        }
+    }
 }
 
 /// The surface moved onto the triangles, but for places where it would meet itself there.

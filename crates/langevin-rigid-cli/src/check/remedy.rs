@@ -1,16 +1,13 @@
 //! Which repair mends a mesh: each is tried.
 
 use langevin_rigid_bake::TriMesh;
-use langevin_rigid_bake::mesh::{Balance, Options, Step, Survey, Unrepaired, repair};
+use langevin_rigid_bake::mesh::{Balance, Options, Step, Survey, Unrepaired, fitting_wrap, repair};
 use langevin_rigid_formats::mesh::RawMesh;
 
 use crate::bars::Bars;
 
 /// Thickness of a sheet that is tried, as a share of the diagonal of its box.
 const TRIED_THICKNESS: f64 = 1e-3;
-
-/// Size of a wrap that is tried, as a share of the diagonal.
-const TRIED_WRAP: f64 = 0.02;
 
 /// Share of the area below which a component is debris.
 const DEBRIS: f64 = 0.01;
@@ -78,7 +75,7 @@ fn tries(survey: &Survey) -> Vec<(String, Options)> {
         thickness: Some(TRIED_THICKNESS * diagonal2.sqrt()).filter(|t| *t > 0.0),
         ..mild
     };
-    let size = two_digits(TRIED_WRAP * diagonal2.sqrt());
+    let size = fitting_wrap(survey.bounds);
     let wrap = Options {
         wrap: Some(size).filter(|size| *size > 0.0),
         ..Options::default()
@@ -102,10 +99,6 @@ fn tries(survey: &Survey) -> Vec<(String, Options)> {
     .flatten()
     .chain([(wrapped, wrap)])
     .collect()
-}
-
-fn two_digits(x: f64) -> f64 {
-    format!("{x:.1e}").parse().unwrap_or(x)
 }
 
 /// Whether all components but the largest are small or inside it, so that dropping them is not to lose a

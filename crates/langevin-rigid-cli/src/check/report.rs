@@ -4,6 +4,7 @@ mod table;
 
 use langevin_rigid_bake::added_mass::{AddedMassError, Expected, Options, Thinnest, expected};
 use langevin_rigid_bake::mesh::{Component, Faults, Hole, Survey};
+use langevin_rigid_formats::mesh::FileUnit;
 use serde::Serialize;
 
 use super::remedy::Remedy;
@@ -95,9 +96,9 @@ struct ExpectedReport {
 }
 
 impl Report {
-    pub(super) fn new(options: &Check, survey: &Survey, remedy: &Remedy) -> Report {
+    pub(super) fn new(options: &Check, unit: FileUnit, survey: &Survey, remedy: &Remedy) -> Report {
         let size: [f64; 3] = std::array::from_fn(|k| survey.bounds[1][k] - survey.bounds[0][k]);
-        let in_file = size.map(|x| x / options.unit.unwrap_or_default().to_metres(1.0));
+        let in_file = size.map(|x| x / unit.to_metres(1.0));
         let [m, cm, mm] = [1.0, 1e-2, 1e-3].map(|unit| in_file.map(|x| x * unit));
         let body = survey.body.as_ref().ok().or(remedy.body.as_ref());
         let foretold = body.map(|body| expected(body, &Options::default()));
@@ -118,7 +119,7 @@ impl Report {
             file: options.mesh.display().to_string(),
             triangles: survey.triangles,
             vertices: survey.vertices,
-            unit: options.unit.unwrap_or_default().to_string(),
+            unit: unit.to_string(),
             size,
             size_if_m: m,
             size_if_cm: cm,

@@ -44,7 +44,7 @@ pub enum ParseError {
     NoTriangles,
     /// Neither the file nor whoever reads it says what its numbers measure.
     #[error(
-        "the file does not state its unit of length: give `--unit` to a command, `unit` in a scene, or export glTF, which is in metres"
+        "the file does not state its unit of length: give `--unit` to a command, `unit` in a scene, or export glTF, which is in metres, or Collada, which states its unit"
     )]
     NoUnit,
     /// The file uses a part of the format that is not read.
@@ -111,7 +111,7 @@ pub enum ReadError {
         remedy: &'static str,
     },
     /// Neither the content nor the extension is that of a known format.
-    #[error("`{}` is of no known mesh format: known are .obj, .stl, .ply, .gltf and .glb", path.display())]
+    #[error("`{}` is of no known mesh format: known are .obj, .stl, .ply, .gltf, .glb and .dae", path.display())]
     UnknownFormat {
         /// Its path.
         path: PathBuf,

@@ -18,7 +18,10 @@ const BLENDER: Foreign = kind(
     "export it from Blender as glTF (.glb), OBJ or STL",
 );
 const FBX: Foreign = kind("an FBX scene", EXPORT);
-const COLLADA: Foreign = kind("a Collada scene", EXPORT);
+const ZAE: Foreign = kind(
+    "a zipped Collada scene",
+    "unpack it and name the .dae file in it",
+);
 const STUDIO: Foreign = kind("a 3D Studio scene", EXPORT);
 const STEP: Foreign = kind("a STEP file of exact surfaces", CAD);
 const IGES: Foreign = kind("an IGES file of exact surfaces", CAD);
@@ -67,12 +70,7 @@ const BEGINNINGS: &[(&[u8], Foreign)] = &[
 const WORDS: [&str; 5] = ["off", "coff", "noff", "cnoff", "stoff"];
 
 /// The root elements of markup.
-const ROOTS: [(&str, Foreign); 4] = [
-    ("<collada", COLLADA),
-    ("<x3d", VRML),
-    ("<!doctype html", HTML),
-    ("<html", HTML),
-];
+const ROOTS: [(&str, Foreign); 3] = [("<x3d", VRML), ("<!doctype html", HTML), ("<html", HTML)];
 
 /// How much of a file is looked at for a root element, which comments may precede.
 const PROLOGUE: usize = 4096;
@@ -102,7 +100,7 @@ impl Foreign {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "blend" => Some(BLENDER),
             "fbx" => Some(FBX),
-            "dae" => Some(COLLADA),
+            "zae" => Some(ZAE),
             "3ds" => Some(STUDIO),
             "step" | "stp" => Some(STEP),
             "iges" | "igs" => Some(IGES),
@@ -127,6 +125,8 @@ fn archive(bytes: &[u8]) -> Option<Foreign> {
         THREE_MF
     } else if has(b".usdc") || has(b".usda") {
         USD
+    } else if has(b".dae") {
+        ZAE
     } else {
         ZIP
     })
@@ -147,6 +147,9 @@ fn iges(bytes: &[u8]) -> Option<Foreign> {
 fn of_text(text: &[u8]) -> Option<Foreign> {
     let start = String::from_utf8_lossy(&text[..text.len().min(PROLOGUE)]).to_ascii_lowercase();
     if start.starts_with('<') {
+        if super::collada::is_collada(text) {
+            return None;
+        }
         let root = ROOTS.iter().find(|(root, _)| start.contains(root));
         return root.map(|(_, kind)| *kind);
     }

@@ -17,12 +17,12 @@ mod skin;
 mod surface;
 #[cfg(test)]
 mod tests;
-mod transform;
 mod version;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use super::transform::Transform;
 use super::{ParseError, Place, RawMesh};
 use accessor::Accessors;
 use buffer::Buffers;
@@ -31,7 +31,6 @@ use instancing::Instances;
 use node::{Shown, World};
 use skin::Skins;
 use surface::Surface;
-use transform::Transform;
 
 /// Reads a JSON file, with the binary chunk of a GLB file if there is one.
 pub(super) fn parse(
@@ -143,28 +142,14 @@ fn show(
             let maps = skin::blended(surface, skins.joints(skin)?)?;
             let placed = positions.iter().zip(&maps).map(|(&p, map)| map.apply(p));
             let mirrored = maps.first().is_some_and(Transform::mirrors);
-            append(mesh, placed, &surface.triangles, mirrored);
+            mesh.append(placed, &surface.triangles, mirrored);
             continue;
         }
         for k in 0..instances.count {
             let map = shown.transform.after(&instances.transform(k));
             let placed = positions.iter().map(|&p| map.apply(p));
-            append(mesh, placed, &surface.triangles, map.mirrors());
+            mesh.append(placed, &surface.triangles, map.mirrors());
         }
     }
     Ok(())
-}
-
-fn append(
-    mesh: &mut RawMesh,
-    vertices: impl Iterator<Item = [f64; 3]>,
-    triangles: &[[u32; 3]],
-    mirrored: bool,
-) {
-    let first = mesh.vertices.len() as u32;
-    mesh.vertices.extend(vertices);
-    mesh.triangles.extend(triangles.iter().map(|t| {
-        let [a, b, c] = t.map(|corner| first + corner);
-        if mirrored { [a, c, b] } else { [a, b, c] }
-    }));
 }

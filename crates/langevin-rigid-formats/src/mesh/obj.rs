@@ -146,6 +146,7 @@ impl Reader {
             vertices: self.vertices,
             triangles,
             notices,
+            ..RawMesh::default()
         };
         mesh.notices.extend(faces);
         mesh.notices.extend(self.numbers.notice());

@@ -220,6 +220,7 @@ impl Soup {
             vertices: self.vertices,
             triangles,
             notices: notice.into_iter().collect(),
+            ..RawMesh::default()
         };
         if !self.broken.is_empty() {
             mesh.drop_unused();

@@ -24,12 +24,23 @@ pub(super) struct Polygons {
     corners: Vec<u32>,
     /// Where in `corners` each polygon ends.
     ends: Vec<usize>,
+    /// Where in `corners` a hole begins, of the polygon that it is in.
+    holes: Vec<usize>,
 }
 
 impl Polygons {
     pub(super) fn push(&mut self, corners: impl IntoIterator<Item = u32>) {
         self.corners.extend(corners);
         self.ends.push(self.corners.len());
+    }
+
+    /// A hole in the polygon pushed last, running either way.
+    pub(super) fn push_hole(&mut self, corners: impl IntoIterator<Item = u32>) {
+        self.holes.push(self.corners.len());
+        self.corners.extend(corners);
+        if let Some(end) = self.ends.last_mut() {
+            *end = self.corners.len();
+        }
     }
 
     /// The corners of all polygons.
@@ -44,13 +55,19 @@ impl Polygons {
             Vec::with_capacity(self.corners.len().saturating_sub(2 * self.ends.len()));
         let mut bad = Vec::new();
         let mut start = 0;
+        let mut holes = self.holes.iter().copied().peekable();
         for (number, &end) in self.ends.iter().enumerate() {
             let corners = &self.corners[start..end];
-            match (corners.len() > 3).then(|| cut(corners, vertices)) {
+            let mut rings = vec![0];
+            while let Some(hole) = holes.next_if(|&hole| hole < end) {
+                rings.push(hole - start);
+            }
+            rings.push(corners.len());
+            match (corners.len() > 3).then(|| cut(corners, &rings, vertices)) {
                 Some(Some(cut)) => triangles.extend(cut),
                 Some(None) => {
                     bad.push(number);
-                    triangles.extend(fan(corners));
+                    triangles.extend(fan(&corners[..rings[1]]));
                 }
                 None => triangles.extend(fan(corners)),
             }
@@ -76,26 +93,68 @@ pub(super) fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     rim.windows(2).map(|pair| [corners[0], pair[0], pair[1]])
 }
 
-/// Triangles that cover a polygon once; nothing where there are none.
-fn cut(corners: &[u32], vertices: &[[f64; 3]]) -> Option<Vec<[u32; 3]>> {
-    let places: Vec<[f64; 3]> = corners.iter().map(|&v| vertices[v as usize]).collect();
-    let outline = flattened(&places);
-    if is_fan(&outline) {
+/// Triangles of a strip, wound as its first.
+pub(super) fn strip(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
+    let wound = |(i, w): (usize, &[u32])| match i % 2 {
+        0 => [w[0], w[1], w[2]],
+        _ => [w[0], w[2], w[1]],
+    };
+    corners.windows(3).enumerate().map(wound)
+}
+
+/// The vertices among `corners`, increasing; the triangles over them become triangles over their places.
+pub(super) fn renumber_used(corners: Vec<u32>, triangles: &mut [[u32; 3]]) -> Vec<u32> {
+    let mut used = corners;
+    used.sort_unstable();
+    used.dedup();
+    // Most surfaces use every vertex there is.
+    if used.last().is_some_and(|&last| last as usize >= used.len()) {
+        for corner in triangles.as_flattened_mut() {
+            *corner = used.partition_point(|v| v < corner) as u32;
+        }
+    }
+    used
+}
+
+/// Triangles that cover a polygon once but for its holes; nothing where there are none. The outer ring is
+/// between the first and the second of `rings`, each hole between two of the others.
+fn cut(corners: &[u32], rings: &[usize], vertices: &[[f64; 3]]) -> Option<Vec<[u32; 3]>> {
+    let mut places: Vec<[f64; 3]> = corners.iter().map(|&v| vertices[v as usize]).collect();
+    let mut outline = flattened(&places, rings[1])?;
+    if rings.len() == 2 && is_fan(&outline) {
         return Some(fan(corners).collect());
     }
     if corners.len() > MOST_CORNERS {
         return None;
     }
-    let cut = Outline::new(&places, &outline)?.triangulated()?;
+    let mut corners = corners.to_vec();
+    for hole in rings[1..].windows(2).map(|ends| ends[0]..ends[1]) {
+        if doubled_area(&outline[hole.clone()]) > 0.0 {
+            outline[hole.clone()].reverse();
+            places[hole.clone()].reverse();
+            corners[hole].reverse();
+        }
+    }
+    let cut = Outline::new(&places, &outline, rings)?.triangulated()?;
     Some(cut.iter().map(|t| t.map(|i| corners[i])).collect())
 }
 
-/// The polygon seen against the axis nearest to its normal (Newell's), so that it runs counter-clockwise.
-fn flattened(places: &[[f64; 3]]) -> Vec<[f64; 2]> {
-    let from = places[0];
+/// Twice the area of a polygon, positive where it runs counter-clockwise.
+fn doubled_area(outline: &[[f64; 2]]) -> f64 {
+    let arm = |p: &[f64; 2]| [p[0] - outline[0][0], p[1] - outline[0][1]];
+    let pairs = outline
+        .windows(2)
+        .map(|pair| (arm(&pair[0]), arm(&pair[1])));
+    pairs.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum()
+}
+
+/// The polygon seen against the axis nearest to the normal (Newell's) of its first `outer` corners, so that
+/// these run counter-clockwise; nothing without corners.
+fn flattened(places: &[[f64; 3]], outer: usize) -> Option<Vec<[f64; 2]>> {
+    let from = *places.first()?;
     let arm = |p: [f64; 3]| [p[0] - from[0], p[1] - from[1], p[2] - from[2]];
     let mut normal = [0.0; 3];
-    for pair in places.windows(2) {
+    for pair in places[..outer].windows(2) {
         let (a, b) = (arm(pair[0]), arm(pair[1]));
         for (k, x) in normal.iter_mut().enumerate() {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -111,7 +170,7 @@ fn flattened(places: &[[f64; 3]]) -> Vec<[f64; 2]> {
     let (i, j) = ((along + 1) % 3, (along + 2) % 3);
     let (i, j) = if normal[along] < 0.0 { (j, i) } else { (i, j) };
     let snap = |x: f64| if x.abs() < TINY { 0.0 } else { x };
-    places.iter().map(|p| [snap(p[i]), snap(p[j])]).collect()
+    Some(places.iter().map(|p| [snap(p[i]), snap(p[j])]).collect())
 }
 
 /// Whether the first corner sees every side from the left, going around it less than once.
@@ -142,7 +201,7 @@ struct Outline {
 
 impl Outline {
     /// Nothing where corners at different places are seen at one.
-    fn new(places: &[[f64; 3]], outline: &[[f64; 2]]) -> Option<Outline> {
+    fn new(places: &[[f64; 3]], outline: &[[f64; 2]], rings: &[usize]) -> Option<Outline> {
         let mut points = Vec::new();
         let mut corner: Vec<usize> = Vec::new();
         let mut known = BTreeMap::new();
@@ -161,10 +220,12 @@ impl Outline {
             point.push(p);
         }
         let mut runs = BTreeMap::new();
-        for (i, &a) in point.iter().enumerate() {
-            let b = point[(i + 1) % point.len()];
-            if a != b {
-                *runs.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+        for ring in rings.windows(2).map(|ends| &point[ends[0]..ends[1]]) {
+            for (i, &a) in ring.iter().enumerate() {
+                let b = ring[(i + 1) % ring.len()];
+                if a != b {
+                    *runs.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+                }
             }
         }
         Some(Outline {

@@ -80,6 +80,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawMesh, ParseError> {
         vertices: corners,
         triangles,
         notices,
+        ..RawMesh::default()
     })
 }
 

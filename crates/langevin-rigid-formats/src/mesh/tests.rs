@@ -635,7 +635,7 @@ fn unreadable_files_are_told_apart() {
     assert!(
         error
             .to_string()
-            .contains(".obj, .stl, .ply, .gltf and .glb")
+            .contains(".obj, .stl, .ply, .gltf, .glb and .dae")
     );
     std::fs::write(folder.0.join("bad.obj"), b"v 0 0 0\nv 1 x 0\n").unwrap();
     let error = read("bad.obj").to_string();

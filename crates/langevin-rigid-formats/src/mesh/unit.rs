@@ -77,6 +77,58 @@ impl std::fmt::Display for LengthUnit {
     }
 }
 
+/// The unit of length that a file was read in, which need not have a name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FileUnit {
+    /// A unit with a symbol.
+    Known(LengthUnit),
+    /// So many metres, which no known unit has.
+    Metres(f64),
+}
+
+impl Default for FileUnit {
+    fn default() -> FileUnit {
+        FileUnit::Known(LengthUnit::M)
+    }
+}
+
+impl FileUnit {
+    /// A unit of so many metres.
+    pub(super) fn of_metres(metres: f64) -> FileUnit {
+        let all = [
+            LengthUnit::M,
+            LengthUnit::Cm,
+            LengthUnit::Mm,
+            LengthUnit::Um,
+            LengthUnit::In,
+            LengthUnit::Ft,
+        ];
+        // Programs write six or seven digits.
+        let is = |unit: &LengthUnit| (metres / unit.to_metres(1.0) - 1.0).abs() < 1e-6;
+        match all.into_iter().find(is) {
+            Some(unit) => FileUnit::Known(unit),
+            None => FileUnit::Metres(metres),
+        }
+    }
+
+    /// A length in this unit, in metres.
+    pub fn to_metres(self, length: f64) -> f64 {
+        match self {
+            FileUnit::Known(unit) => unit.to_metres(length),
+            FileUnit::Metres(metres) => length * metres,
+        }
+    }
+}
+
+impl std::fmt::Display for FileUnit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            FileUnit::Known(unit) => unit.fmt(f),
+            FileUnit::Metres(metres) => write!(f, "units of {metres} m"),
+        }
+    }
+}
+
 /// The symbol is not that of a unit of length known here.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("unknown unit of length `{symbol}`: give `m`, `cm`, `mm`, `um`, `in` or `ft`")]

@@ -97,7 +97,7 @@ fn from_file(
         return Err(doc.error(triangles.span(), message));
     }
     let format = MeshFormat::of_extension(mesh.get_ref().as_ref());
-    if body.unit.is_none() && format.is_some_and(|format| format.unit().is_none()) {
+    if body.unit.is_none() && format.is_some_and(|format| !format.has_unit()) {
         let message = "a mesh file needs its `unit` of length: \"m\", \"cm\", \"mm\", \"um\", \"in\" or \"ft\"";
         return Err(doc.error(mesh.span(), message));
     }

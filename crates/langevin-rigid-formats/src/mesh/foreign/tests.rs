@@ -26,10 +26,7 @@ fn foreign_files_are_known_by_their_content() {
         (b"PXR-USDC\0", USD),
         (b"#VRML V2.0 utf8\n", VRML),
         (b"<?xml version=\"1.0\"?>\n<X3D version='3.0'>", VRML),
-        (
-            b"\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- hull --><COLLADA>",
-            COLLADA,
-        ),
+        (b"PK\x03\x04\x0a\0\0\0\0\0body.dae", ZAE),
         (b"\n<!DOCTYPE html><html>", HTML),
         (b"OFF\n8 6 12\n", OFF),
         (b"# hull\nCOFF 8 6 12\n", OFF),
@@ -46,6 +43,7 @@ fn foreign_files_are_known_by_their_content() {
         b"ply\n",
         b"{\"asset\":{}}",
         b"glTF\x02\0\0\0",
+        b"\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- <html> --><COLLADA>",
         b"MM",
         b"<svg/>",
     ] {

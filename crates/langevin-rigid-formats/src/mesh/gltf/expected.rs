@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use super::super::proportion::{most_triangles, too_many};
 use super::super::{ParseError, Place};
 use super::accessor::Accessors;
 use super::document::{Mesh, Node, Primitive};
@@ -11,13 +12,6 @@ use super::get;
 use super::instancing::Instances;
 use super::node::World;
 use super::surface;
-
-/// Triangles that any file may have.
-const ALWAYS: u64 = 1 << 20;
-/// Triangles more for each of its bytes.
-const PER_BYTE: u64 = 16;
-/// Triangles that no file may have more of.
-const MOST: u64 = 1 << 24;
 
 /// Refuses a scene of more triangles than its size accounts for.
 pub(super) fn check(
@@ -36,10 +30,7 @@ pub(super) fn check(
         meshes.insert(index, (mesh, primitives));
     }
     let size = json.saturating_add(accessors.buffers.size()) as u64;
-    let most = PER_BYTE
-        .saturating_mul(size)
-        .saturating_add(ALWAYS)
-        .min(MOST);
+    let most = most_triangles(size);
     for shown in &world.shown {
         let instances = Instances::of(shown.node, accessors)?.count as u64;
         let (mesh, primitives) = &meshes[&shown.mesh];
@@ -58,16 +49,6 @@ pub(super) fn check(
         Err(too_many(most, size))
     } else {
         Ok(())
-    }
-}
-
-fn too_many(most: u64, size: u64) -> ParseError {
-    ParseError::Unsupported {
-        feature: format!(
-            "more than {most} triangles (counted once for each node, instance and morph target that \
-             shows them) in a file of {size} bytes"
-        ),
-        remedy: "export fewer copies or a coarser mesh",
     }
 }
 

@@ -1,9 +1,9 @@
 //! Many copies of a node's mesh (EXT_mesh_gpu_instancing).
 
+use super::super::transform::Transform;
 use super::super::{ParseError, Place};
 use super::accessor::{Accessors, Component, Items};
 use super::document::Node;
-use super::transform::Transform;
 
 /// The places where a node shows its mesh, each within the node; one if it says nothing.
 pub(super) struct Instances<'a> {

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use super::super::transform::Transform;
 use super::super::{ParseError, Place};
 use super::document::{Document, Node};
 use super::get;
-use super::transform::Transform;
 
 /// A mesh that a node of the scene shows.
 pub(super) struct Shown<'a> {
@@ -54,7 +54,7 @@ impl<'a> World<'a> {
         let mut waiting = vec![(root, Transform::IDENTITY)];
         while let Some((index, parent)) = waiting.pop() {
             let node = get(&self.document.nodes, index, "node")?;
-            let transform = parent.after(&Transform::of(node));
+            let transform = parent.after(&placed(node));
             if self.transforms[index].replace(transform).is_some() {
                 let reason = format!("node {index} is reached twice, the nodes are not a tree");
                 return Err(ParseError::at(Place::File, reason));
@@ -68,5 +68,17 @@ impl<'a> World<'a> {
             waiting.extend(node.children.iter().rev().map(|&child| (child, transform)));
         }
         Ok(())
+    }
+}
+
+/// The map of a node into its parent: its matrix, or translation · rotation · scale.
+fn placed(node: &Node) -> Transform {
+    match &node.matrix {
+        Some(m) => Transform::of_matrix(m),
+        None => Transform::of_parts(
+            node.translation.as_deref().copied(),
+            node.rotation.as_deref().copied(),
+            node.scale.as_deref().copied(),
+        ),
     }
 }

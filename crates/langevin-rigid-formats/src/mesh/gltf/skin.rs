@@ -2,13 +2,13 @@
 
 use std::cell::OnceCell;
 
+use super::super::transform::Transform;
 use super::super::{ParseError, Place};
 use super::accessor::{Accessors, Component};
 use super::document::Skin;
 use super::get;
 use super::node::World;
 use super::surface::Surface;
-use super::transform::Transform;
 
 /// The maps from a mesh to the world that the joints of each skin make.
 pub(super) struct Skins<'a> {

@@ -1,6 +1,7 @@
 //! The triangles of one primitive, in the mesh's own frame.
 
-use super::super::{ParseError, Place, fan};
+use super::super::polygon::{fan, renumber_used, strip};
+use super::super::{ParseError, Place};
 use super::accessor::{Accessors, Component, INDICES, Items};
 use super::document::{Draco, Primitive};
 use super::draco::Decoded;
@@ -200,15 +201,7 @@ impl<'a> Source<'_, 'a> {
             return Err(ParseError::at(Place::File, reason));
         }
         let mut triangles = triangles(&corners, mode);
-        let mut used = corners;
-        used.sort_unstable();
-        used.dedup();
-        // Most surfaces use every vertex there is.
-        if used.len() < vertices {
-            for corner in triangles.as_flattened_mut() {
-                *corner = used.partition_point(|v| v < corner) as u32;
-            }
-        }
+        let used = renumber_used(corners, &mut triangles);
         Ok((used, triangles))
     }
 }
@@ -217,16 +210,7 @@ impl<'a> Source<'_, 'a> {
 fn triangles(corners: &[u32], mode: u32) -> Vec<[u32; 3]> {
     match mode {
         4 => corners.as_chunks::<3>().0.to_vec(),
-        5 => {
-            let wound = |(i, w): (usize, &[u32])| {
-                if i % 2 == 0 {
-                    [w[0], w[1], w[2]]
-                } else {
-                    [w[0], w[2], w[1]]
-                }
-            };
-            corners.windows(3).enumerate().map(wound).collect()
-        }
+        5 => strip(corners).collect(),
         _ => fan(corners).collect(),
     }
 }

@@ -125,6 +125,54 @@ fn a_hole_by_way_of_a_bridge_stays_open() {
 }
 
 #[test]
+fn holes_stay_open_whichever_way_they_run() {
+    let square =
+        |[x, y]: [f64; 2], side: f64| [[x, y], [x + side, y], [x + side, y + side], [x, y + side]];
+    let rings = [
+        square([0.0, 0.0], 5.0),
+        square([1.0, 1.0], 1.0),
+        square([3.0, 2.0], 1.5),
+    ];
+    let vertices = flat(rings.as_flattened());
+    for backwards in [false, true] {
+        let mut polygons = Polygons::default();
+        polygons.push(0..4);
+        if backwards {
+            polygons.push_hole((4..8).rev());
+        } else {
+            polygons.push_hole(4..8);
+        }
+        polygons.push_hole(8..12);
+        polygons.push([0, 2, 1]);
+        let (triangles, notice) = polygons.triangles(&vertices);
+        assert_eq!(notice, None);
+        let areas = doubled_areas(&vertices, &triangles);
+        let (last, with_holes) = areas.split_last().unwrap();
+        assert!(with_holes.iter().all(|a| a[2] > 0.0));
+        let sum: f64 = with_holes.iter().map(|a| a[2]).sum();
+        assert_eq!((sum, last[2]), (2.0 * (25.0 - 1.0 - 2.25), -25.0));
+    }
+}
+
+#[test]
+fn a_hole_that_leaves_its_polygon_is_noted() {
+    let vertices = flat(&[
+        [0.0, 0.0],
+        [2.0, 0.0],
+        [0.0, 2.0],
+        [1.0, 0.5],
+        [3.0, 0.5],
+        [1.0, 0.7],
+    ]);
+    let mut polygons = Polygons::default();
+    polygons.push(0..3);
+    polygons.push_hole(3..6);
+    let (triangles, notice) = polygons.triangles(&vertices);
+    assert_eq!(triangles, [[0, 1, 2]]);
+    assert!(notice.unwrap().contains("1 of 1 faces"));
+}
+
+#[test]
 fn repeated_corners_count_once() {
     let vertices = flat(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
     let mut polygons = Polygons::default();

@@ -185,6 +185,7 @@ fn instances_are_placed_within_their_node() {
                 .map(|t| t.map(|v| v - 8 * (range.start / 12) as u32))
                 .collect(),
             notices: Vec::new(),
+            ..RawMesh::default()
         };
         part.body().unwrap()
     };
@@ -383,7 +384,7 @@ fn another_unit_than_metres_is_noticed() {
     assert_eq!(read(None), read(Some("m".parse().unwrap())));
     assert_eq!(read(None).notices.len(), 0);
     let small = read(Some("mm".parse().unwrap()));
-    assert!(small.notices[0].contains("in mm, its format says m"));
+    assert!(small.notices[0].contains("in mm in place of m"));
     assert!((small.body().unwrap().volume() / 1e-9 - 1.0).abs() < 1e-9);
     let obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let error = parse_mesh(obj, MeshFormat::Obj, None, None).unwrap_err();

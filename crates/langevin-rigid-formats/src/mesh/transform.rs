@@ -1,6 +1,5 @@
 //! Affine maps.
 
-use super::document::Node;
 use langevin_rigid::linalg::rotation_matrix;
 
 /// An affine map x → linear · x + translation, the rows of `linear` first to third.
@@ -16,16 +15,17 @@ impl Transform {
         translation: [0.0; 3],
     };
 
-    /// The map of a node into its parent: its matrix, or translation · rotation · scale.
-    pub(super) fn of(node: &Node) -> Transform {
-        match &node.matrix {
-            Some(m) => Transform::of_matrix(m),
-            None => Transform::of_parts(
-                node.translation.as_deref().copied(),
-                node.rotation.as_deref().copied(),
-                node.scale.as_deref().copied(),
-            ),
+    /// A linear map, by its rows.
+    pub(super) fn of_linear(linear: [[f64; 3]; 3]) -> Transform {
+        Transform {
+            linear,
+            ..Transform::IDENTITY
         }
+    }
+
+    /// A row-major matrix, its last row taken to be 0, 0, 0, 1.
+    pub(super) fn of_rows(m: &[f64; 16]) -> Transform {
+        Transform::of_matrix(&std::array::from_fn(|k| m[4 * (k % 4) + k / 4]))
     }
 
     /// A column-major matrix, its last row taken to be 0, 0, 0, 1.
