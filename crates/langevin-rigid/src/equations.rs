@@ -90,8 +90,7 @@ impl<F: Shape, R: Real> Equations<F, R> {
     ) -> Stepped<R> {
         let (motion, alone) = self.in_parts(self.relative_to_fluid(before), time, dt, noise);
         let after = self.in_the_world(motion, time.of(dt));
-        // Zero for a time that is finite, as in `possible`.
-        let timed = !(time - time).less(time.of(0.0)) & (time - time).less(time.of(1.0));
+        let timed = time.abs().less(time.of(f64::INFINITY));
         let sound = possible(&after) & is_unit(before.orientation) & timed;
         Stepped {
             motion: after,

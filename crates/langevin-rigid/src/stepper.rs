@@ -285,7 +285,7 @@ impl Stepper {
     ) -> Result<(), BatchError> {
         let mut stopped = Vec::new();
         match self.paper {
-            _ if !(dt >= 0.0) => {
+            _ if dt.is_nan() || dt < 0.0 => {
                 let places = packs.iter().flat_map(Pack::bodies);
                 stopped.extend(places.map(|body| (body, StepError::TimeStep(dt))));
             }
