@@ -30,8 +30,9 @@ pub fn check_inertia(inertia: [[f64; 3]; 3]) -> Result<[[f64; 3]; 3], MassError>
     }
     let inertia = symmetrized(inertia)?;
     let moments = principal_moments(inertia);
-    // Negated so that what is not a number, from entries near the largest there are, is refused too.
-    if !(moments[0] > 0.0) {
+    // Entries near the largest there are make moments that are not numbers.
+    let positive = moments[0] > 0.0;
+    if !positive {
         return Err(MassError::NotPositiveDefinite { moments });
     }
     if moments[2] > (moments[0] + moments[1]) * (1.0 + TOLERANCE) {
