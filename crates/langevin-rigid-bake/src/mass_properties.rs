@@ -10,7 +10,7 @@ mod inertia;
 use crate::mesh::TriMesh;
 use crate::mesh::vector::{add, cross, dot, scale, sub};
 
-pub use inertia::principal_moments;
+pub use inertia::{check_inertia, principal_moments};
 
 /// Volume, mass and inertia of a rigid body, in the frame of its mesh.
 ///
@@ -46,20 +46,41 @@ impl MassProperties {
     ///
     /// # Errors
     ///
-    /// [`MassError::NotPositive`] where the density is not positive and finite.
+    /// [`MassError::NotPositive`] where the density is not positive and finite; [`MassError::Scale`]
+    /// where the mesh is so large or so small that its integrals are not.
     pub fn of(mesh: &TriMesh, density: f64) -> Result<MassProperties, MassError> {
         check_positive("density", density, "kg/m³")?;
         let middle = middle_of(mesh);
         let solid = Moments::about(mesh, middle);
         let displaced = Moments::about(&mesh.wetted(), middle);
         let from_middle = solid.centroid();
-        Ok(MassProperties {
+        MassProperties {
             volume: displaced.volume,
             centroid: add(middle, displaced.centroid()),
             mass: density * solid.volume,
             centre_of_mass: add(middle, from_middle),
             inertia: inertia_of(&solid, from_middle, density),
-        })
+        }
+        .within_range()
+    }
+
+    /// The same, if all of it can be held in numbers of full precision.
+    fn within_range(self) -> Result<MassProperties, MassError> {
+        let places = self.centroid.iter().chain(&self.centre_of_mass);
+        let place = places.fold(0.0, |sum, x| sum + x.abs());
+        let [least, _, most] = principal_moments(self.inertia);
+        for (quantity, value, least_value) in [
+            ("volume", self.volume, f64::MIN_POSITIVE),
+            ("mass", self.mass, f64::MIN_POSITIVE),
+            ("centroid", place, 0.0),
+            ("largest moment of inertia", most, f64::MIN_POSITIVE),
+            ("smallest moment of inertia", least, f64::MIN_POSITIVE),
+        ] {
+            if !(value >= least_value && value.is_finite()) {
+                return Err(MassError::Scale { quantity, value });
+            }
+        }
+        Ok(self)
     }
 
     /// Mean density (kg/m³): mass over the volume displaced.
@@ -71,16 +92,18 @@ impl MassProperties {
     ///
     /// # Errors
     ///
-    /// [`MassError::NotPositive`] where the mass is not positive and finite.
+    /// [`MassError::NotPositive`] where the mass is not positive and finite, [`MassError::Scale`] where
+    /// the inertia is then not.
     pub fn with_mass(self, mass: f64) -> Result<MassProperties, MassError> {
         check_positive("mass", mass, "kg")?;
         let ratio = mass / self.mass;
         let inertia = self.inertia.map(|row| scale(ratio, row));
-        Ok(MassProperties {
+        MassProperties {
             mass,
             inertia,
             ..self
-        })
+        }
+        .within_range()
     }
 
     /// The same body with its mass and inertia scaled to a mean `density` (kg/m³).
@@ -120,7 +143,7 @@ impl MassProperties {
     /// not positive definite, or has a principal moment above the sum of the other two, which no
     /// distribution of mass has.
     pub fn with_inertia(self, inertia: [[f64; 3]; 3]) -> Result<MassProperties, MassError> {
-        let inertia = inertia::checked(inertia)?;
+        let inertia = check_inertia(inertia)?;
         Ok(MassProperties { inertia, ..self })
     }
 }
@@ -138,6 +161,17 @@ pub enum MassError {
         value: f64,
         /// Its unit.
         unit: &'static str,
+    },
+    /// An integral over the body that is too large or too small for numbers of full precision.
+    #[error(
+        "the {quantity} of the body comes out as {value:e}: its size, proportions or density are extreme; \
+         check the unit of the mesh"
+    )]
+    Scale {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Its value (SI units).
+        value: f64,
     },
     /// A component that is infinite or not a number.
     #[error("the {quantity} has a component that is not finite")]

@@ -56,6 +56,7 @@ pub use projection::Projection;
 
 /// Why a turbulence history could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TurbulenceError {
     /// An axis of the grid has no cells.
     #[error("the grid has {cells:?} cells along x, y, z: each needs at least 1")]
@@ -119,6 +120,18 @@ pub enum TurbulenceError {
     TooManySteps {
         /// Steps that the options ask for.
         steps: f64,
+    },
+    /// The grid and the history together take more than [`FlowOptions::MAX_UPDATES`].
+    #[error(
+        "{steps} steps of this grid update {updates:.1e} cells, more than the limit of {:.0e}: \
+         use fewer cells, shorten the duration or lengthen the time step",
+        FlowOptions::MAX_UPDATES
+    )]
+    TooMuchWork {
+        /// Steps that the options ask for.
+        steps: f64,
+        /// Cells times steps.
+        updates: f64,
     },
     /// The turbulence to start from is not positive and finite.
     #[error(

@@ -185,7 +185,7 @@ fn bad_values_are_refused() {
     let output = place.run("1", &[&scene, "--runs", "2"]);
     let complaint = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1));
-    for word in ["error: ", "ball.toml:12:8", "tilt", "negative"] {
+    for word in ["error: ", "ball.toml:12:8", "tilt", "between 0 and 1e6"] {
         assert!(complaint.contains(word), "`{word}` is not in: {complaint}");
     }
 }

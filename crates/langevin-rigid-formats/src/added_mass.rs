@@ -16,7 +16,7 @@ mod uuv;
 
 pub use capytaine::capytaine;
 pub use csv::csv;
-pub use json::json;
+pub use json::{JsonError, json};
 pub use mujoco::mujoco;
 pub use sdf::sdf;
 pub use table::table;

@@ -102,6 +102,21 @@ pub enum ExportError {
         /// The largest number of frames.
         most: usize,
     },
+    /// The bodies together make more frames than there may be.
+    #[error(
+        "{bodies} bodies at {fps} frames a second make {frames:.3e} frames, and at most {most} are possible: \
+         ask for fewer frames a second, or for a format that has every step (csv, npz)"
+    )]
+    TooManyFrames {
+        /// How many they make.
+        frames: f64,
+        /// Frames a second asked for.
+        fps: f64,
+        /// How many bodies there are.
+        bodies: usize,
+        /// The largest number of frames.
+        most: usize,
+    },
     /// More than the format holds.
     #[error("the animation takes {bytes} bytes, a GLB file holds 4 GiB: lower the frames a second")]
     TooLarge {

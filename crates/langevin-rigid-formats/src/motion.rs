@@ -2,8 +2,8 @@
 
 use libm::{atan2, sin};
 
-/// Coordinates beyond this many metres are taken for a diverged simulation.
-const FARTHEST: f64 = 1e12;
+/// Numbers beyond this many metres, seconds and their quotients are taken for a diverged simulation.
+pub(crate) const FARTHEST: f64 = 1e12;
 
 /// Half-angle (rad) below which the arc and its chord agree to rounding.
 const STRAIGHT: f64 = 1e-7;
@@ -22,14 +22,15 @@ pub struct Pose {
 
 /// Why poses are no motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MotionError {
     /// The trajectory is empty.
     #[error("the trajectory has no poses: give at least one")]
     NoPoses,
     /// A pose is not a finite placement: a diverged simulation, or a zero quaternion.
     #[error(
-        "pose {index} is no placement: time {} s, position {:?} m, orientation {:?} (all must be \
-         finite, positions within 1e12 m, the quaternion not zero); cut the trajectory before it",
+        "pose {index} is no placement: time {} s, position {:?} m, orientation {:?} (times \
+         must be within 1e12 s, positions within 1e12 m, the quaternion finite and not zero); cut the trajectory before it",
         pose.time, pose.position, pose.orientation
     )]
     BadPose {
@@ -117,7 +118,7 @@ impl<'a> Motion<'a> {
 fn check(index: usize, pose: &Pose) -> Result<(), MotionError> {
     let in_range = |v: &f64| v.abs() <= FARTHEST;
     let norm2 = pose.orientation.iter().map(|q| q * q).sum::<f64>();
-    if pose.time.is_finite()
+    if in_range(&pose.time)
         && pose.position.iter().all(in_range)
         && norm2.is_normal()
         && pose.orientation.iter().all(|q| q.is_finite())

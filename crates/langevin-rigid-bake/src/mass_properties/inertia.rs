@@ -6,8 +6,23 @@ use super::MassError;
 /// equality.
 const TOLERANCE: f64 = 1e-9;
 
-/// The tensor made exactly symmetric, if a body can have it.
-pub(super) fn checked(inertia: [[f64; 3]; 3]) -> Result<[[f64; 3]; 3], MassError> {
+/// An inertia tensor about a centre of mass (kg m²) made exactly symmetric, if a body can have it.
+///
+/// ```
+/// use langevin_rigid_bake::mass_properties::check_inertia;
+///
+/// let disc = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(check_inertia(disc)?, disc);
+/// assert!(check_inertia([[1.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 1.0]]).is_err());
+/// # Ok::<(), langevin_rigid_bake::mass_properties::MassError>(())
+/// ```
+///
+/// # Errors
+///
+/// A [`MassError`] where the tensor is not finite, not symmetric to 1e-9 of its largest entry, not
+/// positive definite, or has a principal moment above the sum of the other two, which no distribution of
+/// mass has.
+pub fn check_inertia(inertia: [[f64; 3]; 3]) -> Result<[[f64; 3]; 3], MassError> {
     if !inertia.as_flattened().iter().all(|x| x.is_finite()) {
         return Err(MassError::NotFinite {
             quantity: "inertia",
@@ -15,7 +30,9 @@ pub(super) fn checked(inertia: [[f64; 3]; 3]) -> Result<[[f64; 3]; 3], MassError
     }
     let inertia = symmetrized(inertia)?;
     let moments = principal_moments(inertia);
-    if moments[0] <= 0.0 {
+    // Entries near the largest there are make moments that are not numbers.
+    let positive = moments[0] > 0.0;
+    if !positive {
         return Err(MassError::NotPositiveDefinite { moments });
     }
     if moments[2] > (moments[0] + moments[1]) * (1.0 + TOLERANCE) {

@@ -219,3 +219,50 @@ fn a_cavity_floats_and_weighs_nothing() {
     let hole = 0.5 / 12.0 * (0.01 + 0.0025) + 0.5 * 0.01;
     close(got.inertia[1][1], whole - hole - 7.5 * x * x);
 }
+
+#[test]
+fn a_body_of_any_scale_has_its_properties_or_a_reason_why_not() {
+    let tetrahedron = |size: f64, away: f64| {
+        let vertices = vec![
+            [away, 0.0, 0.0],
+            [away + size, 0.0, 0.0],
+            [away, size, 0.0],
+            [away, 0.0, size],
+        ];
+        TriMesh::new(vertices, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    };
+    for exponent in -307..=307 {
+        let size = libm::pow(10.0, f64::from(exponent));
+        let Ok(mesh) = tetrahedron(size, 0.0) else {
+            continue;
+        };
+        match MassProperties::of(&mesh, 1.0) {
+            // The volume goes with the cube, the inertia with the fifth power of the size.
+            Ok(got) => {
+                let moment = got.inertia[0][0] / got.volume / size / size;
+                assert!((moment - 0.075).abs() < 1e-12, "{size:e}: {moment}");
+            }
+            Err(error) => assert!(
+                matches!(error, MassError::Scale { .. }) && !(-50..=50).contains(&exponent),
+                "{size:e}: {error}"
+            ),
+        }
+    }
+    for away in [1e20, 1e160, 1e300] {
+        if let Ok(mesh) = tetrahedron(1.0, away) {
+            assert!(MassProperties::of(&mesh, 1.0).is_err(), "{away:e}");
+        }
+    }
+    let body = MassProperties::of(&tetrahedron(1e3, 0.0).unwrap(), 1.0).unwrap();
+    let heavy = body.with_mass(f64::MAX).unwrap_err();
+    assert!(matches!(heavy, MassError::Scale { .. }), "{heavy}");
+}
+
+#[test]
+fn inertias_near_the_ends_of_the_range_are_judged() {
+    let uniform = |x: f64| [[x, 0.0, 0.0], [0.0, x, 0.0], [0.0, 0.0, x]];
+    assert!(check_inertia(uniform(1e300)).is_ok());
+    assert!(check_inertia(uniform(1e-300)).is_ok());
+    let huge = [[f64::MAX; 3]; 3];
+    assert!(check_inertia(huge).is_err());
+}

@@ -167,7 +167,7 @@ pub struct MacGrid {
 
 impl MacGrid {
     /// Largest memory of a flow on a grid (bytes).
-    pub const MAX_BYTES: usize = 4 << 30;
+    pub const MAX_BYTES: usize = 1 << 30;
 
     /// Values a flow keeps for each cell: velocity, two turbulence fields, each twice; the path
     /// traced back; two fields of the pressure solve.

@@ -48,6 +48,9 @@ impl FlowOptions {
     /// Most entries of a history.
     pub const MAX_ENTRIES: usize = 10_000_000;
 
+    /// Most updates of a cell: cells times steps, hours of work.
+    pub const MAX_UPDATES: f64 = 1e12;
+
     /// Options with a step in which the stream crosses one cell (CFL number 1: uniform streams are
     /// then carried exactly), the time it takes to cross the box, and a fixed sample point.
     pub fn new(cells: [usize; 3], cell: f64, inflow_speed: f64) -> Self {
@@ -84,6 +87,13 @@ impl FlowOptions {
         let steps = (duration / time_step * (1.0 - 1e-12)).ceil();
         if steps >= Self::MAX_ENTRIES as f64 {
             return Err(TurbulenceError::TooManySteps { steps });
+        }
+        let updates = self
+            .cells
+            .iter()
+            .fold(steps, |product, n| product * *n as f64);
+        if updates > Self::MAX_UPDATES {
+            return Err(TurbulenceError::TooMuchWork { steps, updates });
         }
         Ok(steps as usize)
     }
@@ -228,6 +238,10 @@ mod tests {
             refused(&|o| o.time_step = 1e-12),
             E::TooManySteps { .. }
         ));
+        // A box of which the stream takes its length in steps to cross it.
+        let long = FlowOptions::new([1, 2_000_000, 1], 0.02, 0.5);
+        assert!(matches!(long.steps(), Err(E::TooMuchWork { .. })));
+        assert!(FlowOptions::new([1, 900_000, 1], 0.02, 0.5).steps().is_ok());
     }
 
     #[test]

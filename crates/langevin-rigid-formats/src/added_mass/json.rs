@@ -5,6 +5,14 @@ use serde::Serialize;
 use super::Report;
 use super::statement::Statement;
 
+/// Why a report cannot be written as JSON.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the added mass cannot be written as JSON: {message}")]
+pub struct JsonError {
+    /// What of it.
+    pub message: String,
+}
+
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
@@ -17,12 +25,15 @@ struct Document<'a> {
 ///
 /// # Errors
 ///
-/// [`serde_json::Error`], which these types never cause.
-pub fn json(report: &Report) -> Result<String, serde_json::Error> {
+/// [`JsonError`], which these types never cause.
+pub fn json(report: &Report) -> Result<String, JsonError> {
     let conventions = Statement::new(report);
     let document = Document {
         report,
         conventions,
     };
-    Ok(serde_json::to_string_pretty(&document)? + "\n")
+    let text = serde_json::to_string_pretty(&document).map_err(|error| JsonError {
+        message: error.to_string(),
+    })?;
+    Ok(text + "\n")
 }

@@ -6,7 +6,7 @@ use langevin_rigid::{Hull, NoiseStream, State, StepError, Stepper};
 use super::motion::MotionTracker;
 use super::scatter::scattered_release;
 use crate::advance::advance;
-use crate::scene::Scene;
+use crate::scene::{MAX_STEPS, Scene};
 
 /// Positions are kept at whole multiples of a sixtieth of a second.
 pub const SAMPLES_PER_SECOND: u32 = 60;
@@ -16,10 +16,11 @@ const PATIENCE: u64 = 256;
 
 /// Why a fall ended.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum FallEnding {
     /// The body touched the ground, or the floor of the tank.
     Ground,
-    /// The time was up.
+    /// The time was up, or the steps were: [`MAX_STEPS`](crate::scene::MAX_STEPS).
     Time,
     /// A step failed.
     Diverged(StepError),
@@ -102,7 +103,7 @@ impl Setup<'_> {
         let late = |end| state.time > end - 0.5 * self.scene.time_step;
         if stop.ground.is_some_and(|y| self.hull.touches(state, y)) {
             Some(FallEnding::Ground)
-        } else if stop.time.is_some_and(late) {
+        } else if stop.time.is_some_and(late) || state.step >= MAX_STEPS {
             Some(FallEnding::Time)
         } else {
             None

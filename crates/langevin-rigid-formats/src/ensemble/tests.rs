@@ -269,12 +269,16 @@ fn mistakes_in_the_new_tables_have_their_place() {
         (error.line, error.column, error.message)
     };
     for (text, place, word) in [
-        ("[scatter]\ntilt = -1.0", (8, 8), "negative"),
-        ("[scatter]\nspin = nan", (8, 8), "finite"),
-        ("[scatter]\nvelocity = inf", (8, 12), "finite"),
+        ("[scatter]\ntilt = -1.0", (8, 8), "between 0 and 1e6"),
+        ("[scatter]\nspin = nan", (8, 8), "is NaN"),
+        ("[scatter]\nvelocity = inf", (8, 12), "is inf"),
         ("[scatter]\ntilts = 1.0", (8, 1), "tilts"),
-        ("[tank]\nsize = [0.3, 0.0, 0.3]", (8, 8), "positive"),
-        ("[tank]\nsize = [0.3, 0.3]", (8, 8), "3"),
+        ("[tank]\nsize = [0.3, 0.0, 0.3]", (8, 8), "one is 0"),
+        (
+            "[tank]\nsize = [0.3, 0.3]",
+            (8, 8),
+            "takes 3 values, and has 2",
+        ),
         ("[tank]", (7, 1), "size"),
     ] {
         let (line, column, message) = wrong(text);

@@ -3,7 +3,7 @@
 use super::ExportError;
 use crate::trajectory::Trajectory;
 
-/// Most frames of an animation.
+/// Most frames of an animation, over all its bodies: each takes some hundred bytes.
 const MOST: usize = 10_000_000;
 
 /// A last frame closer than this to the one before it, in frames, is the same.
@@ -29,12 +29,25 @@ impl Frames {
             return Err(ExportError::NoBodies);
         }
         let frames = Self { fps, start, end };
-        let fits = fps > 0.0 && fps.is_finite() && (end - start) * fps < MOST as f64;
-        if fits {
-            Ok(frames)
-        } else {
-            Err(frames.too_many(MOST))
+        if !(fps > 0.0 && (end - start) * fps < MOST as f64) {
+            return Err(frames.too_many(MOST));
         }
+        let ends = trajectories.iter().filter_map(|t| t.poses.last());
+        let all: f64 = ends.map(|pose| frames.count(pose.time)).sum();
+        if all > MOST as f64 {
+            return Err(ExportError::TooManyFrames {
+                frames: all,
+                fps,
+                bodies: trajectories.len(),
+                most: MOST,
+            });
+        }
+        Ok(frames)
+    }
+
+    /// The most frames until a time (s).
+    fn count(self, end: f64) -> f64 {
+        ((end - self.start) * self.fps).max(0.0).floor() + 2.0
     }
 
     /// The error that only so many frames are possible.
@@ -87,6 +100,35 @@ mod tests {
         assert_eq!(frames(0.1 + 1e-12, 20.0).unwrap(), [0.0, 1.0, 2.0]);
         assert_eq!(frames(0.125, 20.0).unwrap(), [0.0, 1.0, 2.0, 2.5]);
         assert_eq!(frames(0.0, 20.0).unwrap(), [0.0]);
+    }
+
+    #[test]
+    fn frames_are_counted_over_all_bodies() {
+        let at = |time| State {
+            time,
+            ..State::default()
+        };
+        let bodies = |count: u32, end: f64| -> Vec<Trajectory> {
+            let body = |body| Trajectory::new(body, &[at(0.0), at(end)]);
+            (0..count).map(body).collect()
+        };
+        for (count, end) in [(1, 0.0), (3, 1.7), (2, 99944.0)] {
+            let bodies = bodies(count, end);
+            let frames = Frames::of(&bodies, 60.0);
+            let made = 60.0 * end * f64::from(count);
+            if made < 1e7 {
+                let frames = frames.unwrap();
+                assert!(frames.until(end).len() as f64 <= frames.count(end));
+            } else {
+                assert!(matches!(frames, Err(ExportError::TooManyFrames { .. })));
+            }
+        }
+        let error = Frames::of(&bodies(200, 99944.0), 60.0).unwrap_err();
+        let message = error.to_string();
+        assert!(
+            message.contains("1.199e9 frames") && message.contains("200 bodies"),
+            "{message}"
+        );
     }
 
     #[test]

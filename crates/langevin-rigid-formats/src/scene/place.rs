@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use serde_spanned::Spanned;
 
+use super::quantity::{Kind, Short};
+use super::raw::Given;
+
 /// A scene file that cannot be used: where, what, and how to mend it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SceneError {
@@ -48,69 +51,122 @@ impl Document<'_> {
     pub(super) fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
         let before = self.text.get(..span.start).unwrap_or(self.text);
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        let source_line = self.text[line_start..]
-            .lines()
-            .next()
-            .unwrap_or("")
-            .to_owned();
+        let source_line = self.text[line_start..].lines().next().unwrap_or("");
         SceneError {
             file: self.file.to_owned(),
             line: before.matches('\n').count() + 1,
             column: before[line_start..].chars().count() + 1,
-            message: message.into(),
-            source_line,
+            message: printable(&message.into()),
+            source_line: printable(source_line),
         }
     }
 
-    /// A number that must be positive; `what` names it with its unit.
-    pub(super) fn positive(&self, value: &Spanned<f64>, what: &str) -> Result<f64, SceneError> {
-        self.check(
-            value,
-            |x| x > 0.0 && x.is_finite(),
-            || format!("{what} must be a positive number"),
-        )
+    /// A number within the range of its kind.
+    pub(super) fn number(
+        &self,
+        value: &Spanned<f64>,
+        key: &str,
+        kind: Kind,
+    ) -> Result<f64, SceneError> {
+        let x = *value.get_ref();
+        if kind.includes(x) {
+            return Ok(x);
+        }
+        let message = format!("{} must be {kind}, and is {}", kind.named(key), Short(x));
+        Err(self.error(value.span(), message))
     }
 
-    /// A number that must be finite.
-    pub(super) fn finite(&self, value: &Spanned<f64>, what: &str) -> Result<f64, SceneError> {
-        self.check(value, f64::is_finite, || {
-            format!("{what} must be a finite number")
+    /// The same where it is given.
+    pub(super) fn given(
+        &self,
+        value: &Given<f64>,
+        key: &str,
+        kind: Kind,
+    ) -> Result<Option<f64>, SceneError> {
+        value
+            .as_ref()
+            .map(|v| self.number(v, key, kind))
+            .transpose()
+    }
+
+    /// So many values, no more and no fewer.
+    pub(super) fn array<T: Clone, const N: usize>(
+        &self,
+        values: &Spanned<Vec<T>>,
+        key: &str,
+    ) -> Result<[T; N], SceneError> {
+        let list = values.get_ref();
+        list.clone().try_into().map_err(|_| {
+            let message = format!("`{key}` takes {N} values, and has {}", list.len());
+            self.error(values.span(), message)
         })
     }
 
-    /// Numbers that must all be finite.
-    pub(super) fn finite_all<const N: usize>(
+    /// So many numbers, each within the range of their kind.
+    pub(super) fn numbers<const N: usize>(
         &self,
-        values: &Spanned<[f64; N]>,
-        what: &str,
+        values: &Spanned<Vec<f64>>,
+        key: &str,
+        kind: Kind,
     ) -> Result<[f64; N], SceneError> {
-        let all = values.get_ref();
-        match all.iter().all(|x| x.is_finite()) {
-            true => Ok(*all),
-            false => Err(self.error(values.span(), format!("{what} must be finite numbers"))),
+        let numbers: [f64; N] = self.array(values, key)?;
+        match numbers.iter().find(|x| !kind.includes(**x)) {
+            None => Ok(numbers),
+            Some(x) => {
+                let what = kind.named(key);
+                let message = format!("{what} must be numbers {kind}, and one is {}", Short(*x));
+                Err(self.error(values.span(), message))
+            }
         }
+    }
+
+    /// A vector of which the length, too, is within the range of its kind; zero if none.
+    pub(super) fn vector(
+        &self,
+        value: &Given<Vec<f64>>,
+        key: &str,
+        kind: Kind,
+    ) -> Result<[f64; 3], SceneError> {
+        let Some(values) = value else {
+            return Ok([0.0; 3]);
+        };
+        let vector = self.numbers(values, key, kind)?;
+        let length = length(&vector);
+        if length <= kind.most * ROUNDING {
+            return Ok(vector);
+        }
+        let (what, most) = (kind.named(key), Short(kind.most));
+        let message = format!("{what} must be no longer than {most}, and is {length:e} long");
+        Err(self.error(values.span(), message))
     }
 
     /// A name that parses into a choice.
-    pub(super) fn name<T: std::str::FromStr>(&self, name: &Spanned<String>) -> Result<T, SceneError>
+    pub(super) fn name<T: std::str::FromStr>(
+        &self,
+        name: &Spanned<String>,
+        key: &str,
+    ) -> Result<T, SceneError>
     where
         T::Err: std::fmt::Display,
     {
-        name.get_ref()
-            .parse()
-            .map_err(|e: T::Err| self.error(name.span(), e.to_string()))
+        let choice = name.get_ref().parse();
+        choice.map_err(|e: T::Err| self.error(name.span(), format!("`{key}`: {e}")))
     }
+}
 
-    fn check(
-        &self,
-        value: &Spanned<f64>,
-        good: impl Fn(f64) -> bool,
-        message: impl Fn() -> String,
-    ) -> Result<f64, SceneError> {
-        let x = *value.get_ref();
-        match good(x) {
-            true => Ok(x),
-            false => Err(self.error(value.span(), format!("{}, and is {x}", message()))),
-        }
-    }
+/// What turning a vector from one frame to another may make of its length.
+const ROUNDING: f64 = 1.0 + 1e-9;
+
+pub(super) fn length(vector: &[f64]) -> f64 {
+    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Without characters that a terminal acts on; as long in characters as before.
+fn printable(text: &str) -> String {
+    let shown = |c: char| match c {
+        '\t' => ' ',
+        c if c.is_control() => char::REPLACEMENT_CHARACTER,
+        c => c,
+    };
+    text.chars().map(shown).collect()
 }

@@ -1,7 +1,11 @@
 //! A scene file as it is written: every value optional and with its place in the file.
+//!
+//! Arrays are lists here, of any length: a fixed length would let surplus entries pass.
 
 use serde::{Deserialize, Serialize};
 use serde_spanned::Spanned;
+
+use super::seed::Seed;
 
 /// A value that may be absent and knows where it stands.
 pub(super) type Given<T> = Option<Spanned<T>>;
@@ -37,7 +41,7 @@ pub(super) struct RawFluid {
     pub(super) preset: Given<String>,
     pub(super) density: Given<f64>,
     pub(super) viscosity: Given<f64>,
-    pub(super) velocity: Given<[f64; 3]>,
+    pub(super) velocity: Given<Vec<f64>>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -45,7 +49,7 @@ pub(super) struct RawFluid {
 pub(super) struct RawBody {
     pub(super) shape: Given<String>,
     pub(super) semi_axes: Given<Vec<f64>>,
-    pub(super) size: Given<[f64; 3]>,
+    pub(super) size: Given<Vec<f64>>,
     pub(super) radius: Given<f64>,
     pub(super) diameter: Given<f64>,
     pub(super) inner_diameter: Given<f64>,
@@ -60,8 +64,8 @@ pub(super) struct RawBody {
     pub(super) unit: Given<String>,
     pub(super) density: Given<f64>,
     pub(super) mass: Given<f64>,
-    pub(super) centre_of_mass: Given<[f64; 3]>,
-    pub(super) inertia: Given<[[f64; 3]; 3]>,
+    pub(super) centre_of_mass: Given<Vec<f64>>,
+    pub(super) inertia: Given<Vec<Spanned<Vec<f64>>>>,
     pub(super) characteristic_thickness: Given<f64>,
     pub(super) characteristic_length: Given<f64>,
 }
@@ -69,12 +73,12 @@ pub(super) struct RawBody {
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawRelease {
-    pub(super) position: Given<[f64; 3]>,
+    pub(super) position: Given<Vec<f64>>,
     pub(super) tilt: Given<f64>,
-    pub(super) tilt_axis: Given<[f64; 3]>,
-    pub(super) orientation: Given<[f64; 4]>,
-    pub(super) velocity: Given<[f64; 3]>,
-    pub(super) angular_velocity: Given<[f64; 3]>,
+    pub(super) tilt_axis: Given<Vec<f64>>,
+    pub(super) orientation: Given<Vec<f64>>,
+    pub(super) velocity: Given<Vec<f64>>,
+    pub(super) angular_velocity: Given<Vec<f64>>,
     pub(super) frame: Given<String>,
     pub(super) carried: Given<f64>,
 }
@@ -88,15 +92,15 @@ pub(super) struct RawRun {
     pub(super) time_step: Given<f64>,
     pub(super) duration: Given<f64>,
     pub(super) ground: Given<f64>,
-    pub(super) seed: Given<i64>,
-    pub(super) gravity: Given<[f64; 3]>,
+    pub(super) seed: Given<Seed>,
+    pub(super) gravity: Given<Vec<f64>>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawTurbulence {
     pub(super) length: Given<f64>,
-    pub(super) cells: Given<[i64; 3]>,
+    pub(super) cells: Given<Vec<i64>>,
     pub(super) cell: Given<f64>,
     pub(super) inflow_speed: Given<f64>,
     pub(super) time_step: Given<f64>,
@@ -121,7 +125,7 @@ pub(super) struct RawScatter {
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawTank {
-    pub(super) size: Spanned<[f64; 3]>,
+    pub(super) size: Spanned<Vec<f64>>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]

@@ -1,5 +1,7 @@
 //! The built-in scenes and how a scene is found.
 
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use super::{Geometry, Scene, SceneError};
@@ -56,8 +58,12 @@ impl BuiltIn {
     }
 }
 
+/// The longest scene file (bytes): far more than any needs.
+const LONGEST: u64 = 1 << 20;
+
 /// Why a scene could not be opened.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum FindError {
     /// Neither a built-in scene nor a file.
     #[error(
@@ -75,6 +81,12 @@ pub enum FindError {
         file: String,
         /// What the system said.
         error: std::io::Error,
+    },
+    /// The file is longer than scenes are.
+    #[error("`{file}` is longer than a scene file may be (1 MiB): is it another file?")]
+    TooLong {
+        /// The file.
+        file: String,
     },
     /// The file is no scene.
     #[error(transparent)]
@@ -102,10 +114,15 @@ pub fn find(name: &str) -> Result<Scene, FindError> {
             name: name.to_owned(),
         });
     }
-    let text = std::fs::read_to_string(path).map_err(|error| FindError::Read {
+    let text = read(path).map_err(|error| FindError::Read {
         file: name.to_owned(),
         error,
     })?;
+    if text.len() as u64 > LONGEST {
+        return Err(FindError::TooLong {
+            file: name.to_owned(),
+        });
+    }
     let stem = path
         .file_stem()
         .map_or_else(|| name.into(), |s| s.to_string_lossy());
@@ -116,6 +133,15 @@ pub fn find(name: &str) -> Result<Scene, FindError> {
         *mesh = folder.join(&mesh);
     }
     Ok(scene)
+}
+
+/// The text of a file, no more than it takes to see that it is too long.
+fn read(path: &Path) -> io::Result<String> {
+    let mut text = String::new();
+    File::open(path)?
+        .take(LONGEST + 1)
+        .read_to_string(&mut text)?;
+    Ok(text)
 }
 
 #[cfg(test)]

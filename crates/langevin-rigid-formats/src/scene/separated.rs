@@ -3,67 +3,48 @@
 use langevin_rigid::SeparatedFlow;
 
 use super::place::{Document, SceneError};
+use super::quantity::{FRACTION, GAIN, Kind};
 use super::raw::{Given, RawSeparated, given};
 
 pub(super) fn resolve(doc: &Document, raw: &RawSeparated) -> Result<SeparatedFlow, SceneError> {
     let defaults = SeparatedFlow::default();
-    let fraction = |value: &Given<f64>, default, key: &str| {
-        within(
-            doc,
-            value,
-            default,
-            0.0..=1.0,
-            &format!("`{key}` must lie between 0 and 1"),
-        )
-    };
-    let gain = |value: &Given<f64>, default, key: &str| {
-        within(
-            doc,
-            value,
-            default,
-            0.0..=f64::MAX,
-            &format!("`{key}` must be zero or positive"),
-        )
+    let or = |value: &Given<f64>, default: f64, key: &str, kind: Kind| {
+        Ok(doc.given(value, key, kind)?.unwrap_or(default))
     };
     Ok(SeparatedFlow {
-        attachment: fraction(&raw.attachment, defaults.attachment, "attachment")?,
-        broadside_attachment: fraction(
+        attachment: or(&raw.attachment, defaults.attachment, "attachment", FRACTION)?,
+        broadside_attachment: or(
             &raw.broadside_attachment,
             defaults.broadside_attachment,
             "broadside_attachment",
+            FRACTION,
         )?,
-        dynamic_stall: gain(&raw.dynamic_stall, defaults.dynamic_stall, "dynamic_stall")?,
-        rotational_lift: gain(
+        dynamic_stall: or(
+            &raw.dynamic_stall,
+            defaults.dynamic_stall,
+            "dynamic_stall",
+            GAIN,
+        )?,
+        rotational_lift: or(
             &raw.rotational_lift,
             defaults.rotational_lift,
             "rotational_lift",
+            GAIN,
         )?,
-        rotational_damping: gain(
+        rotational_damping: or(
             &raw.rotational_damping,
             defaults.rotational_damping,
             "rotational_damping",
+            GAIN,
         )?,
-        turbulence_intensity: gain(
+        turbulence_intensity: or(
             &raw.turbulence_intensity,
             defaults.turbulence_intensity,
             "turbulence_intensity",
+            GAIN,
         )?,
         attached: raw.attached.unwrap_or(defaults.attached),
     })
-}
-
-fn within(
-    doc: &Document,
-    value: &Given<f64>,
-    default: f64,
-    range: std::ops::RangeInclusive<f64>,
-    message: &str,
-) -> Result<f64, SceneError> {
-    match value {
-        None => Ok(default),
-        Some(v) if range.contains(v.get_ref()) => Ok(*v.get_ref()),
-        Some(v) => Err(doc.error(v.span(), format!("{message}, and is {}", v.get_ref()))),
-    }
 }
 
 /// The section of a resolved scene.

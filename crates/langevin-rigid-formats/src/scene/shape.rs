@@ -1,12 +1,16 @@
 //! The body of a scene: a parametric shape by name, or a mesh file.
 
+use std::path::Path;
+
 use langevin_rigid_bake::body::BodySpec;
+use langevin_rigid_bake::mass_properties::check_inertia;
 use langevin_rigid_bake::shapes::Shape;
 use serde_spanned::Spanned;
 
 use super::place::{Document, SceneError};
+use super::quantity::{DENSITY, HOLE, INERTIA, MASS, PLACE, RADIUS, SIZE};
 use super::raw::{Given, RawBody, given};
-use super::{BodySource, Geometry};
+use super::{BodySource, Geometry, WriteSceneError};
 use crate::mesh::{LengthUnit, MeshFormat};
 
 /// Triangles of a parametric body where the scene does not say.
@@ -63,27 +67,39 @@ fn spec(
     own_thickness: Option<f64>,
 ) -> Result<BodySpec, SceneError> {
     let body = raw.get_ref();
-    let positive =
-        |value: &Given<f64>, what| value.as_ref().map(|v| doc.positive(v, what)).transpose();
-    let density = positive(&body.density, "`density` (kg/m^3)")?;
-    let mass = positive(&body.mass, "`mass` (kg)")?;
+    let density = doc.given(&body.density, "density", DENSITY)?;
+    let mass = doc.given(&body.mass, "mass", MASS)?;
     if density.is_none() && mass.is_none() {
         let message = "the body needs a `density` (kg/m^3) or a `mass` (kg)";
         return Err(doc.error(raw.span(), message));
     }
-    let centre = |v: &Spanned<[f64; 3]>| doc.finite_all(v, "`centre_of_mass` (m)");
+    let centre = |v| doc.numbers(v, "centre_of_mass", PLACE);
+    let thickness = &body.characteristic_thickness;
     Ok(BodySpec {
         density,
         mass,
         centre_of_mass: body.centre_of_mass.as_ref().map(centre).transpose()?,
-        inertia: body.inertia.as_ref().map(|m| *m.get_ref()),
-        thickness: positive(
-            &body.characteristic_thickness,
-            "`characteristic_thickness` (m)",
-        )?
-        .or(own_thickness),
-        length: positive(&body.characteristic_length, "`characteristic_length` (m)")?,
+        inertia: inertia(doc, body)?,
+        thickness: doc
+            .given(thickness, "characteristic_thickness", SIZE)?
+            .or(own_thickness),
+        length: doc.given(&body.characteristic_length, "characteristic_length", SIZE)?,
     })
+}
+
+fn inertia(doc: &Document, body: &RawBody) -> Result<Option<[[f64; 3]; 3]>, SceneError> {
+    let Some(given) = &body.inertia else {
+        return Ok(None);
+    };
+    let rows: [Spanned<Vec<f64>>; 3] = doc.array(given, "inertia")?;
+    let mut inertia = [[0.0; 3]; 3];
+    for (numbers, row) in inertia.iter_mut().zip(&rows) {
+        *numbers = doc.numbers(row, "inertia", INERTIA)?;
+    }
+    match check_inertia(inertia) {
+        Ok(_) => Ok(Some(inertia)),
+        Err(error) => Err(doc.error(given.span(), format!("`inertia`: {error}"))),
+    }
 }
 
 fn from_file(
@@ -101,12 +117,14 @@ fn from_file(
         let message = "a mesh file needs its `unit` of length: \"m\", \"cm\", \"mm\", \"um\", \"in\" or \"ft\"";
         return Err(doc.error(mesh.span(), message));
     }
-    let unit = body.unit.as_ref().map(|unit| doc.name::<LengthUnit>(unit));
-    let thickness = |t| doc.positive(t, "`thickness` (m)");
+    let unit = body
+        .unit
+        .as_ref()
+        .map(|unit| doc.name::<LengthUnit>(unit, "unit"));
     Ok(Geometry::Mesh {
         path: mesh.get_ref().into(),
         unit: unit.transpose()?,
-        thickness: body.thickness.as_ref().map(thickness).transpose()?,
+        thickness: doc.given(&body.thickness, "thickness", SIZE)?,
     })
 }
 
@@ -123,7 +141,7 @@ fn parametric(
         ));
     }
     let get = |key: &str, value: &Given<f64>| match value {
-        Some(v) => doc.positive(v, &format!("`{key}` (m)")),
+        Some(v) => doc.number(v, key, SIZE),
         None => Err(missing(doc, name, key)),
     };
     let shape = match name.get_ref().as_str() {
@@ -162,10 +180,7 @@ fn parametric(
             Shape::Coin {
                 diameter: get("diameter", &body.diameter)?,
                 thickness: get("thickness", &body.thickness)?,
-                hole: body
-                    .hole
-                    .as_ref()
-                    .map_or(Ok(0.0), |h| doc.finite(h, "`hole` (m)"))?,
+                hole: doc.given(&body.hole, "hole", HOLE)?.unwrap_or(0.0),
             }
         }
         "washer" => {
@@ -188,7 +203,7 @@ fn parametric(
                 .as_ref()
                 .ok_or_else(|| missing(doc, name, "size"))?;
             Shape::Box {
-                size: doc.finite_all(size, "`size` (m)")?,
+                size: doc.numbers(size, "size", SIZE)?,
             }
         }
         "cylinder" => {
@@ -281,16 +296,13 @@ fn semi_axes<const N: usize>(
         .semi_axes
         .as_ref()
         .ok_or_else(|| missing(doc, name, "semi_axes"))?;
-    <[f64; N]>::try_from(axes.get_ref().as_slice()).map_err(|_| {
-        let message = format!("the shape `{}` needs {N} semi-axes", name.get_ref());
-        doc.error(axes.span(), message)
-    })
+    doc.numbers(axes, "semi_axes", RADIUS)
 }
 
 fn radius(doc: &Document, body: &RawBody, name: &Spanned<String>) -> Result<f64, SceneError> {
     match (&body.radius, &body.diameter) {
-        (Some(r), None) => doc.positive(r, "`radius` (m)"),
-        (None, Some(d)) => Ok(0.5 * doc.positive(d, "`diameter` (m)")?),
+        (Some(r), None) => doc.number(r, "radius", RADIUS),
+        (None, Some(d)) => Ok(0.5 * doc.number(d, "diameter", SIZE)?),
         (Some(_), Some(d)) => {
             Err(doc.error(d.span(), "give the `radius` or the `diameter`, not both"))
         }
@@ -317,14 +329,17 @@ fn thickness_of(shape: &Shape) -> f64 {
 }
 
 /// The body section of a resolved scene.
-pub(super) fn write(source: &BodySource) -> RawBody {
+///
+/// # Errors
+/// A path that TOML, which is UTF-8, cannot hold.
+pub(super) fn write(source: &BodySource) -> Result<RawBody, WriteSceneError> {
     let mut raw = match &source.geometry {
         Geometry::Mesh {
             path,
             unit,
             thickness,
         } => RawBody {
-            mesh: given(path.to_string_lossy().into_owned()),
+            mesh: given(utf8(path)?),
             unit: unit.and_then(|unit| given(unit.to_string())),
             thickness: thickness.and_then(given),
             ..RawBody::default()
@@ -337,11 +352,23 @@ pub(super) fn write(source: &BodySource) -> RawBody {
     let spec = &source.spec;
     raw.density = spec.density.and_then(given);
     raw.mass = spec.mass.and_then(given);
-    raw.centre_of_mass = spec.centre_of_mass.and_then(given);
-    raw.inertia = spec.inertia.and_then(given);
+    raw.centre_of_mass = spec.centre_of_mass.and_then(|c| given(c.to_vec()));
+    let row = |row: [f64; 3]| Spanned::new(0..0, row.to_vec());
+    raw.inertia = spec.inertia.and_then(|m| given(m.map(row).to_vec()));
     raw.characteristic_thickness = spec.thickness.and_then(given);
     raw.characteristic_length = spec.length.and_then(given);
-    raw
+    Ok(raw)
+}
+
+fn utf8(path: &Path) -> Result<String, WriteSceneError> {
+    path.to_str()
+        .map(ToOwned::to_owned)
+        .ok_or_else(|| WriteSceneError {
+            message: format!(
+                "the path of its mesh, `{}`, is not UTF-8: rename the file or its folder",
+                path.display()
+            ),
+        })
 }
 
 fn write_shape(shape: &Shape) -> RawBody {
@@ -392,7 +419,7 @@ fn write_shape(shape: &Shape) -> RawBody {
         },
         Shape::Box { size } => RawBody {
             shape: name("box"),
-            size: given(size),
+            size: given(size.to_vec()),
             ..none
         },
         Shape::Cylinder { radius, height } => RawBody {

@@ -1,20 +1,28 @@
 //! Trajectories as comma-separated values.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::io;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::Trajectory;
-use crate::motion::Pose;
+use crate::motion::{FARTHEST, Pose};
 
 /// The columns of a trajectory table: world frame; metres, seconds, radians.
 pub const CSV_HEADER: &str = "body,t,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz";
 
 const COLUMNS: usize = 15;
 
-/// Bodies that are put into words at a time: on all cores, and never all in memory.
-const BATCH: usize = 32;
+/// Rows that are written or read at a time: on all cores, and never all in memory.
+const BATCH: usize = 1 << 16;
+
+/// Rows that one core writes at a time.
+const CHUNK: usize = 1 << 11;
+
+/// How far the length of a quaternion may be from one.
+const UNIT: f64 = 1e-6;
 
 /// Why a table is no trajectory.
 #[derive(Debug, thiserror::Error)]
@@ -30,6 +38,12 @@ pub enum TableError {
         line: usize,
         /// What is wrong with it.
         reason: String,
+    },
+    /// The table does not end with a line end, as whole ones do.
+    #[error("line {line}: the table is cut short here, it has no line end; run the scene again")]
+    Cut {
+        /// Number of the last line, from 1.
+        line: usize,
     },
     /// There are no rows.
     #[error("there are no rows in it: run the scene again")]
@@ -56,26 +70,35 @@ pub enum TableError {
 /// Those of `out`.
 pub fn write_csv(trajectories: &[Trajectory], out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "{CSV_HEADER}")?;
-    for batch in trajectories.chunks(BATCH) {
-        let rows: Vec<String> = batch.par_iter().map(rows).collect();
+    let chunks: Vec<(&Trajectory, Range<usize>)> = trajectories.iter().flat_map(chunks).collect();
+    for batch in chunks.chunks(BATCH / CHUNK) {
+        let rows: Vec<String> = batch
+            .par_iter()
+            .map(|(trajectory, range)| rows(trajectory, range.clone()))
+            .collect();
         rows.iter()
             .try_for_each(|rows| out.write_all(rows.as_bytes()))?;
     }
     Ok(())
 }
 
-/// The whole table of one body, as [`write_csv`] writes it.
-pub fn csv(trajectory: &Trajectory) -> String {
-    format!("{CSV_HEADER}\n{}", rows(trajectory))
+fn chunks(trajectory: &Trajectory) -> impl Iterator<Item = (&Trajectory, Range<usize>)> {
+    let length = trajectory.len();
+    let starts = (0..length).step_by(CHUNK);
+    starts.map(move |start| (trajectory, start..(start + CHUNK).min(length)))
 }
 
-fn rows(trajectory: &Trajectory) -> String {
-    let mut rows = String::with_capacity(220 * trajectory.len());
-    let velocities = trajectory
-        .velocities
+/// The whole table of one body, as [`write_csv`] writes it.
+pub fn csv(trajectory: &Trajectory) -> String {
+    format!("{CSV_HEADER}\n{}", rows(trajectory, 0..trajectory.len()))
+}
+
+fn rows(trajectory: &Trajectory, range: Range<usize>) -> String {
+    let mut rows = String::with_capacity(220 * range.len());
+    let velocities = trajectory.velocities[range.clone()]
         .iter()
-        .zip(&trajectory.angular_velocities);
-    for (pose, (v, w)) in trajectory.poses.iter().zip(velocities) {
+        .zip(&trajectory.angular_velocities[range.clone()]);
+    for (pose, (v, w)) in trajectory.poses[range].iter().zip(velocities) {
         // Writing to a string cannot fail.
         let _ = write!(rows, "{},{}", trajectory.body, pose.time);
         for x in pose
@@ -92,47 +115,76 @@ fn rows(trajectory: &Trajectory) -> String {
     rows
 }
 
-/// Reads what [`write_csv`] wrote: the rows of a body stand together.
+/// Reads what [`write_csv`] wrote: the rows of a body stand together and in order of time.
 ///
 /// # Errors
 /// [`TableError`] with the line.
 pub fn read_csv(table: &str) -> Result<Vec<Trajectory>, TableError> {
-    let (header, lines) = table.split_once('\n').unwrap_or((table, ""));
+    let (header, mut rest) = table.split_once('\n').unwrap_or((table, ""));
     if header.trim_end() != CSV_HEADER {
         return Err(TableError::Header);
     }
-    let rows: Vec<Result<Row, String>> = lines.par_lines().map(row).collect();
-    let mut trajectories: Vec<Trajectory> = Vec::new();
-    for (line, row) in (2..).zip(rows) {
-        row.and_then(|row| add(&mut trajectories, row))
-            .map_err(|reason| TableError::Line { line, reason })?;
+    let mut bodies = Bodies::default();
+    let mut line = 2;
+    while !rest.is_empty() {
+        let mut batch = Vec::with_capacity(BATCH);
+        while let Some((row, after)) = rest.split_once('\n').filter(|_| batch.len() < BATCH) {
+            batch.push(row);
+            rest = after;
+        }
+        let whole = batch.len();
+        let rows: Vec<Result<Row, String>> = batch.into_par_iter().map(row).collect();
+        for (line, row) in (line..).zip(rows) {
+            row.and_then(|row| bodies.add(row))
+                .map_err(|reason| TableError::Line { line, reason })?;
+        }
+        line += whole;
+        if whole == 0 {
+            return Err(TableError::Cut { line });
+        }
     }
-    if trajectories.is_empty() {
-        return Err(TableError::Empty);
+    match bodies.trajectories.is_empty() {
+        true => Err(TableError::Empty),
+        false => Ok(bodies.trajectories),
     }
-    Ok(trajectories)
 }
 
 /// A body and its numbers.
 type Row = (u32, [f64; COLUMNS - 1]);
 
-/// Adds a row to its body, which is the last or a new one.
-fn add(trajectories: &mut Vec<Trajectory>, (body, numbers): Row) -> Result<(), String> {
-    let known = trajectories.iter().rposition(|t| t.body == body);
-    match known {
-        Some(place) if place + 1 < trajectories.len() => {
-            return Err(format!("body {body} comes back after another's rows"));
+/// The bodies so far, of which the last gets more rows.
+#[derive(Default)]
+struct Bodies {
+    trajectories: Vec<Trajectory>,
+    numbers: HashSet<u32>,
+}
+
+impl Bodies {
+    /// Adds a row to its body, which is the last or a new one.
+    fn add(&mut self, (body, numbers): Row) -> Result<(), String> {
+        match self.trajectories.last_mut() {
+            Some(last) if last.body == body => {
+                let before = last.poses.last().map_or(f64::NEG_INFINITY, |p| p.time);
+                if numbers[0] <= before {
+                    let time = numbers[0];
+                    return Err(format!("its time, {time} s, is not after the row before"));
+                }
+                push(last, &numbers);
+            }
+            _ if !self.numbers.insert(body) => {
+                return Err(format!("body {body} comes back after another's rows"));
+            }
+            _ => {
+                let mut new = Trajectory {
+                    body,
+                    ..Trajectory::default()
+                };
+                push(&mut new, &numbers);
+                self.trajectories.push(new);
+            }
         }
-        Some(_) => {}
-        None => trajectories.push(Trajectory {
-            body,
-            ..Trajectory::default()
-        }),
+        Ok(())
     }
-    if let Some(last) = trajectories.last_mut() {
-        push(last, &numbers);
-    }
-    Ok(())
 }
 
 fn push(trajectory: &mut Trajectory, numbers: &[f64; COLUMNS - 1]) {
@@ -159,60 +211,23 @@ fn row(line: &str) -> Result<Row, String> {
             .ok_or_else(|| format!("it has fewer than {COLUMNS} columns"))?;
         *x = word
             .parse()
-            .map_err(|_| format!("`{word}` is not a number"))?;
+            .ok()
+            .filter(|x: &f64| x.abs() <= FARTHEST)
+            .ok_or_else(|| {
+                format!("`{word}` is not a number between -{FARTHEST:e} and {FARTHEST:e}")
+            })?;
     }
-    match words.next() {
-        None => Ok((body, numbers)),
-        Some(_) => Err(format!("it has more than {COLUMNS} columns")),
+    if words.next().is_some() {
+        return Err(format!("it has more than {COLUMNS} columns"));
     }
+    let length = numbers[4..8].iter().map(|q| q * q).sum::<f64>().sqrt();
+    if (length - 1.0).abs() > UNIT {
+        return Err(format!(
+            "its quaternion is {length} long and must be of unit length"
+        ));
+    }
+    Ok((body, numbers))
 }
 
 #[cfg(test)]
-mod tests {
-    use langevin_rigid::State;
-
-    use super::*;
-
-    fn two_bodies() -> Vec<Trajectory> {
-        let state = |time: f64, k: f64| State {
-            time,
-            position: [0.1 * k, -time / 3.0, 1e-9],
-            velocity: [k, -0.3, 1.0 / 7.0],
-            angular_velocity: [0.0, 1e10, k],
-            ..State::default()
-        };
-        vec![
-            Trajectory::new(0, &[state(0.0, 1.0), state(0.1, 1.0)]),
-            Trajectory::new(7, &[state(0.0, 2.0)]),
-        ]
-    }
-
-    fn table() -> String {
-        let mut out = Vec::new();
-        write_csv(&two_bodies(), &mut out).unwrap();
-        String::from_utf8(out).unwrap()
-    }
-
-    #[test]
-    fn tables_read_back_to_the_last_bit() {
-        assert_eq!(read_csv(&table()).unwrap(), two_bodies());
-        assert_eq!(
-            read_csv(&table().replace('\n', "\r\n")).unwrap(),
-            two_bodies()
-        );
-    }
-
-    #[test]
-    fn damage_is_named_with_its_line() {
-        let fails = |table: &str| read_csv(table).unwrap_err().to_string();
-        assert!(fails("time,x\n").starts_with("line 1: the columns"));
-        assert!(fails(&format!("{CSV_HEADER}\n")).contains("no rows"));
-        let cut = table();
-        let cut = &cut[..cut.len() - 5];
-        assert!(fails(&cut[..cut.rfind(',').unwrap()]).starts_with("line 4: it has fewer"));
-        let odd = table().replacen("\n0,0.1,", "\n0,zero,", 1);
-        assert!(fails(&odd).starts_with("line 3: `zero` is not a number"));
-        let again = table() + table().lines().nth(1).unwrap();
-        assert!(fails(&again).starts_with("line 5: body 0 comes back"));
-    }
-}
+mod tests;

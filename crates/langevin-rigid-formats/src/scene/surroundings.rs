@@ -1,0 +1,42 @@
+//! What is around the body: fluid and tank.
+
+use langevin_rigid::Fluid;
+use serde_spanned::Spanned;
+
+use super::Tank;
+use super::place::{Document, SceneError};
+use super::quantity::{DENSITY, Kind, SIZE, SPEED, VISCOSITY};
+use super::raw::{Given, RawFluid, RawTank};
+
+pub(super) fn fluid(doc: &Document, raw: &Spanned<RawFluid>) -> Result<Fluid, SceneError> {
+    let given = raw.get_ref();
+    let preset = match given.preset.as_ref().map(|p| (p, p.get_ref().as_str())) {
+        None => None,
+        Some((_, "air")) => Some(Fluid::AIR),
+        Some((_, "water")) => Some(Fluid::WATER),
+        Some((p, other)) => {
+            let message = format!(
+                "`{other}` is no preset fluid; choose air or water, or give `density` and `viscosity`"
+            );
+            return Err(doc.error(p.span(), message));
+        }
+    };
+    let quantity = |value: &Given<f64>, of_preset: Option<f64>, key: &str, kind: Kind| {
+        doc.given(value, key, kind)?.or(of_preset).ok_or_else(|| {
+            let what = kind.named(key);
+            let message = format!("the fluid needs {what}, or a `preset` (\"air\" or \"water\")");
+            doc.error(raw.span(), message)
+        })
+    };
+    let (density, viscosity) = (preset.map(|p| p.density), preset.map(|p| p.viscosity));
+    Ok(Fluid {
+        density: quantity(&given.density, density, "density", DENSITY)?,
+        viscosity: quantity(&given.viscosity, viscosity, "viscosity", VISCOSITY)?,
+        velocity: doc.vector(&given.velocity, "velocity", SPEED)?,
+    })
+}
+
+pub(super) fn tank(doc: &Document, raw: Option<&RawTank>) -> Result<Option<Tank>, SceneError> {
+    let size = raw.map(|tank| doc.numbers(&tank.size, "size", SIZE));
+    Ok(size.transpose()?.map(|size| Tank { size }))
+}
