@@ -28,12 +28,13 @@ pub struct Target {
 }
 
 /// All of them. One more needs a file in `fuzz_targets` and an entry in `Cargo.toml` besides its line.
-pub const TARGETS: [Target; 13] = [
+pub const TARGETS: [Target; 14] = [
     Target::new("obj", |bytes| mesh::read(bytes, MeshFormat::Obj)),
     Target::new("stl", |bytes| mesh::read(bytes, MeshFormat::Stl)),
     Target::new("ply", |bytes| mesh::read(bytes, MeshFormat::Ply)),
     Target::new("gltf", |bytes| mesh::read(bytes, MeshFormat::Gltf)),
     Target::new("glb", |bytes| mesh::read(bytes, MeshFormat::Glb)),
+    Target::new("collada", |bytes| mesh::read(bytes, MeshFormat::Collada)),
     Target::new("scene", scene::read),
     Target::new("bake", bake::read_sealed),
     Target::new("bake_raw", bake::read),

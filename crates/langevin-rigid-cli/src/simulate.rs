@@ -25,6 +25,7 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     export::check(&options.format)?;
     let mut scene = scene::find(&options.scene)?;
     apply(options, &mut scene);
+    scene.steps()?;
     let folder = options
         .out
         .clone()

@@ -1,0 +1,3 @@
+//! The target `collada`.
+#![cfg_attr(fuzzing, no_main)]
+langevin_rigid_fuzz::target!("collada");
