@@ -70,8 +70,7 @@ pub(crate) fn prepare() {
 /// Whether the state is to blame for the error.
 fn is_absurd(error: &StepError, state: &State) -> bool {
     match error {
-        StepError::TooFast { .. } => true,
-        StepError::Diverged { .. } => {
+        StepError::State { .. } | StepError::Diverged { .. } => {
             let speeds = [state.velocity, state.angular_velocity];
             speeds
                 .as_flattened()
