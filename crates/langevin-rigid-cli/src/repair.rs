@@ -79,7 +79,7 @@ pub(crate) fn repair(options: &Repair, bars: &Bars) -> Result<()> {
         weld: options.weld,
         fill: options.fill,
         thickness: options.thickness,
-        wrap: options.wrap,
+        wrap: options.wrap.map(|size| size.of(&raw)),
         triangles: options.triangles.map(|n| n as usize),
         largest: options.largest,
     };
