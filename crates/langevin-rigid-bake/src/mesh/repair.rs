@@ -50,8 +50,8 @@ pub struct Options {
     pub thickness: Option<f64>,
     /// Triangles to simplify to.
     pub triangles: Option<usize>,
-    /// In place of all this wrap the triangles (closed parts that meet are wrapped unasked): one closed surface around them that closes gaps up to about
-    /// this size (m) and leaves out what is inside.
+    /// In place of all this wrap the triangles: one closed surface around them that closes gaps up to about
+    /// this size (m) and leaves out what is inside. Closed parts that meet are wrapped unasked.
     pub wrap: Option<f64>,
     /// Keep the component with the largest surface and drop the others.
     pub largest: bool,
@@ -273,8 +273,11 @@ pub fn diagonal(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> f64 {
         .flatten()
         .filter(|&&v| is_place(vertices, v));
     let places: Vec<[f64; 3]> = used.map(|&v| vertices[v as usize]).collect();
+    if places.is_empty() {
+        return 0.0;
+    }
     let [low, high] = bounding_box(&places);
-    norm(sub(high, low)).max(0.0)
+    norm(sub(high, low))
 }
 
 /// Area of the triangles that can be used, each once (m²).

@@ -76,6 +76,9 @@ pub(super) fn wrap(
     triangles: &[[u32; 3]],
     size: f64,
 ) -> Result<Wrap, WrapError> {
+    if triangles.is_empty() {
+        return Err(WrapError::Nothing);
+    }
     if !(size > 0.0 && size.is_finite()) {
         return Err(WrapError::BadSize(size));
     }
