@@ -8,8 +8,8 @@ use crate::mesh::vector::{bounding_box, norm, sub};
 
 /// Growth of the volume from a wrap to one of twice the size that rounding and grooves do not explain.
 const NOTABLE: f64 = 1.1;
-/// The coarsest wrap that is looked at, as a share of the diagonal of the box.
-const COARSEST: f64 = 0.2;
+/// The coarsest wrap that is looked at, as a share of the diagonal of the box: coarser ones have lost the shape.
+const COARSEST: f64 = 0.25;
 
 /// A wrap of twice the size encloses notably more: the outside reaches the inside, or open sheets stand in the
 /// fluid.
@@ -26,9 +26,10 @@ pub struct Leak {
 }
 
 impl Leak {
-    /// Compares with coarser wraps, of which each costs an eighth of the one before.
+    /// Compares with coarser wraps, of which each costs an eighth of the one before. Nothing is known of those
+    /// coarser than an eighth of the diagonal of the box.
     pub(super) fn find(corners: &[Corners], size: f64, volume: f64) -> Option<Leak> {
-        if 2.0 * size > diagonal(corners) {
+        if 2.0 * size > coarsest(corners) {
             return None;
         }
         let coarser = surround(corners, 2.0 * size).ok()?.1.volume();
@@ -43,7 +44,7 @@ impl Leak {
 
 /// The first size of those that double from `size` on whose volume grows no more.
 fn tight(corners: &[Corners], mut size: f64, mut volume: f64) -> Option<f64> {
-    while 2.0 * size <= COARSEST * diagonal(corners) {
+    while 2.0 * size <= coarsest(corners) {
         let coarser = surround(corners, 2.0 * size).ok()?.1.volume();
         if coarser <= NOTABLE * volume {
             return Some(size);
@@ -53,9 +54,9 @@ fn tight(corners: &[Corners], mut size: f64, mut volume: f64) -> Option<f64> {
     None
 }
 
-fn diagonal(corners: &[Corners]) -> f64 {
+fn coarsest(corners: &[Corners]) -> f64 {
     let [low, high] = bounding_box(corners.as_flattened());
-    norm(sub(high, low))
+    COARSEST * norm(sub(high, low))
 }
 
 impl fmt::Display for Leak {
