@@ -112,8 +112,9 @@ fn wrapped_unasked(steps: &[Step]) -> bool {
 }
 
 /// Whether all components but the largest are small or inside it, so that dropping them is not to lose a
-/// part of the body.
+/// part of the body. Where some meet, a first vertex inside does not say that all is.
 fn others_are_debris(survey: &Survey) -> bool {
     let mut others = survey.components.iter().skip(1);
-    others.all(|c| c.inside == Some(0) || c.area < DEBRIS * survey.area)
+    let apart = survey.meeting.count == 0;
+    others.all(|c| (apart && c.inside == Some(0)) || c.area < DEBRIS * survey.area)
 }
