@@ -30,12 +30,13 @@ pub use edges::{Edge, open_edge_count};
 pub use error::{EdgeSite, MeshError};
 pub use proxy::ProxyError;
 pub use repair::{
-    Balance, FILL, Options, Repaired, SMALL_HOLE, Step, Unrepaired, WELD, WIDE_HOLE, repair,
+    Balance, FILL, Options, Repaired, SMALL_HOLE, Step, Unrepaired, WELD, WIDE_HOLE, diagonal,
+    repair,
 };
 pub use seams::{ClosedSeams, close_seams};
 pub use survey::{Component, Faults, Seams, Survey, survey};
 pub use weld::weld;
-pub use wrap::WrapError;
+pub use wrap::{Leak, WrapError};
 
 use std::borrow::Cow;
 

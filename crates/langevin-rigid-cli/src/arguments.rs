@@ -8,6 +8,8 @@ use langevin_rigid_formats::export::{Format as TrajectoryFormat, Up};
 use langevin_rigid_formats::mesh::LengthUnit;
 use langevin_rigid_report::{PARTS, Part};
 
+use crate::size::{Size, size};
+
 const EXIT_CODES: &str = "\
 Exit codes:
   0    done
@@ -326,6 +328,7 @@ Examples:
   langevin-rigid repair hull.stl --unit mm --largest --out hull.obj
   langevin-rigid repair leaf.obj --unit cm --thickness 0.0002 --out leaf.stl
   langevin-rigid repair scan.ply --triangles 5000 --out proxy.obj
+  langevin-rigid repair assembly.glb --wrap 2% --out skin.obj
 
 FILE is OBJ or STL by its extension, in metres, and is written only if it holds a body. A mesh
 that is one already is written as it is.")]
@@ -351,10 +354,11 @@ pub(crate) struct Repair {
     /// Simplify to about N triangles, keeping the volume.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..))]
     pub(crate) triangles: Option<u32>,
-    /// In place of all this, wrap everything in one closed surface that closes gaps up to about this size (m)
-    /// and leaves out what is inside: for open shells, inner walls and parts that meet.
-    #[arg(long, value_name = "SIZE", value_parser = positive, conflicts_with_all = ["weld", "fill", "thickness", "largest"])]
-    pub(crate) wrap: Option<f64>,
+    /// In place of all this, wrap everything in one closed surface that closes gaps up to about this size (m,
+    /// or such as 2% of the diagonal of the mesh's box) and leaves out what is inside: for open shells and inner
+    /// walls. Closed parts that meet are wrapped at 2% unasked.
+    #[arg(long, value_name = "SIZE", value_parser = size, conflicts_with_all = ["weld", "fill", "thickness", "largest"])]
+    pub(crate) wrap: Option<Size>,
     /// Of several components keep the one of the largest surface.
     #[arg(long)]
     pub(crate) largest: bool,
@@ -445,7 +449,7 @@ fn part(name: &str) -> Result<Part, String> {
     })
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
         _ => Err("it must be a positive number".into()),

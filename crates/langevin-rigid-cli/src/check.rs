@@ -10,7 +10,7 @@ use langevin_rigid_bake::mesh::survey;
 
 use crate::arguments::Check;
 use crate::bars::Bars;
-use crate::meshes;
+use crate::{meshes, say};
 use remedy::Remedy;
 use report::Report;
 
@@ -33,6 +33,6 @@ pub(crate) fn check(options: &Check, bars: &Bars) -> Result<bool> {
         true => serde_json::to_string_pretty(&report)? + "\n",
         false => report.table(),
     };
-    std::io::stdout().write_all(text.as_bytes())?;
+    say::out().write_all(text.as_bytes())?;
     Ok(report.ready)
 }

@@ -21,6 +21,7 @@ mod say;
 mod scenes;
 mod signals;
 mod simulate;
+mod size;
 mod summary;
 mod turbulence;
 

@@ -6,13 +6,13 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use langevin_rigid_bake::TriMesh;
 use langevin_rigid_bake::mesh::{Balance, Options, Step, Unrepaired, repair as mend};
-use langevin_rigid_formats::files;
+use langevin_rigid_formats::files::{self, Claim};
 use langevin_rigid_formats::mesh::{LengthUnit, MeshFormat, parse_mesh, write_obj, write_stl};
 use serde::Serialize;
 
 use crate::arguments::Repair;
 use crate::bars::Bars;
-use crate::meshes;
+use crate::{meshes, say};
 
 /// The JSON keys are a contract with scripts.
 #[derive(Serialize)]
@@ -73,12 +73,13 @@ impl StepReport {
 
 pub(crate) fn repair(options: &Repair, bars: &Bars) -> Result<()> {
     let format = format(&options.out)?;
+    let _claim = Claim::file(&options.out)?;
     let raw = meshes::read(&options.mesh, options.unit)?;
     let choices = Options {
         weld: options.weld,
         fill: options.fill,
         thickness: options.thickness,
-        wrap: options.wrap,
+        wrap: options.wrap.map(|size| size.of(&raw)),
         triangles: options.triangles.map(|n| n as usize),
         largest: options.largest,
     };
@@ -100,13 +101,13 @@ pub(crate) fn repair(options: &Repair, bars: &Bars) -> Result<()> {
         warnings: repaired.balance.map_or_else(Vec::new, |b| b.warnings()),
     };
     for warning in &report.warnings {
-        eprintln!("warning: {warning}");
+        say::warning(warning);
     }
     let text = match options.json {
         true => serde_json::to_string_pretty(&report)? + "\n",
         false => lines(&report, &options.out),
     };
-    std::io::stdout().write_all(text.as_bytes())?;
+    say::out().write_all(text.as_bytes())?;
     written.map(|_| ())
 }
 

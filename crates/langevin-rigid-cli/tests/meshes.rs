@@ -179,6 +179,7 @@ fn a_unit_is_hinted_at_and_repaired_into_metres() {
     let (_, report) = place.json(&["check", "leaf.obj"]);
     assert!(report["unit_hint"].as_str().unwrap().contains("--unit mm"));
     assert_eq!(report["size_if_mm"][0], 0.25);
+    assert_eq!(report["size_if_in"][0], 6.35);
     let (_, report) = place.json(&["check", "leaf.obj", "--unit", "mm"]);
     assert_eq!(
         (&report["unit_hint"], &report["size"][0]),
@@ -194,10 +195,24 @@ fn a_unit_is_hinted_at_and_repaired_into_metres() {
 #[test]
 fn several_components_are_kept_or_chosen() {
     let place = Place::new();
-    let far: String = CUBE
+    place.write("two.obj", &two_cubes(["1.005", "1.01"]));
+    let (code, report) = place.json(&["check", "two.obj"]);
+    assert_eq!((code, &report["components"]), (0, &Value::from(2)));
+    let (code, report) = place.json(&["repair", "two.obj", "--largest", "--out", "one.obj"]);
+    assert_eq!((code, &report["triangles"]), (0, &Value::from(12)));
+}
+
+/// The unit cube and another from the one place to the other on all axes.
+fn two_cubes([low, high]: [&str; 2]) -> String {
+    let second = |corner: &str| match corner {
+        "0" => low.to_owned(),
+        "1" => high.to_owned(),
+        word => word.to_owned(),
+    };
+    let vertices: String = CUBE
         .lines()
         .filter(|l| l.starts_with('v'))
-        .map(|l| format!("{}\n", l.replace(" 1", " 1.01").replace(" 0", " 1.005")))
+        .map(|l| l.split(' ').map(second).collect::<Vec<_>>().join(" ") + "\n")
         .collect();
     let faces: String = CUBE
         .lines()
@@ -209,11 +224,71 @@ fn several_components_are_kept_or_chosen() {
             format!("f {}\n", shifted.collect::<Vec<_>>().join(" "))
         })
         .collect();
-    place.write("two.obj", &format!("{CUBE}{far}{faces}"));
+    format!("{CUBE}{vertices}{faces}")
+}
+
+#[test]
+fn closed_parts_that_meet_become_one_body() {
+    let place = Place::new();
+    place.write("two.obj", &two_cubes(["0.5", "1.5"]));
     let (code, report) = place.json(&["check", "two.obj"]);
-    assert_eq!((code, &report["components"]), (0, &Value::from(2)));
-    let (code, report) = place.json(&["repair", "two.obj", "--largest", "--out", "one.obj"]);
-    assert_eq!((code, &report["triangles"]), (0, &Value::from(12)));
+    assert_eq!(code, 1);
+    let command = report["repair"].as_str().unwrap();
+    assert_eq!(
+        command,
+        "langevin-rigid repair two.obj --out two-repaired.obj"
+    );
+    let words: Vec<&str> = command.split(' ').skip(1).collect();
+    let (code, out, err) = place.run(&words);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let done = "wrapped parts that overlap or touch";
+    assert!(
+        out.contains(done) && out.contains("2.000000e0 m^3 of parts became 1.8"),
+        "{out}"
+    );
+    let (code, report) = place.json(&["check", "two-repaired.obj"]);
+    assert_eq!((code, &report["components"]), (0, &Value::from(1)));
+    // Two cubes of 1 m^3 less what they share.
+    let volume = report["volume"].as_f64().unwrap();
+    assert!((volume / 1.875 - 1.0).abs() < 0.01, "{volume}");
+}
+
+#[test]
+fn a_wrap_is_as_fine_as_asked_in_metres_or_as_a_share() {
+    let place = Place::new();
+    place.write("cube.obj", CUBE);
+    let size = |wrap: &str| {
+        let (code, report) = place.json(&["repair", "cube.obj", "--wrap", wrap, "--out", "x.obj"]);
+        assert_eq!((code, &report["warnings"]), (0, &Value::Array(Vec::new())));
+        report["triangles"].as_u64().unwrap()
+    };
+    let length = (0.05 * f64::sqrt(3.0)).to_string();
+    assert_eq!(size("5%"), size(&length));
+    assert!(size("10%") < size("5%"));
+    for wrap in ["0%", "101%", "x%", "-1", "2 m"] {
+        let wrap = format!("--wrap={wrap}");
+        let (code, _, err) = place.run(&["repair", "cube.obj", &wrap, "--out", "y.obj"]);
+        assert!(code == 2 && err.contains("such as 2%"), "{err}");
+    }
+    // The outside reaches both sides of a sheet.
+    place.write("sheet.obj", SHEET);
+    let (code, _, err) = place.run(&["repair", "sheet.obj", "--wrap", "2%", "--out", "y.obj"]);
+    assert!(
+        code == 0 && err.contains("warning: the wrap encloses"),
+        "{err}"
+    );
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_told_before_the_work() {
+    let place = Place::new();
+    place.write("bad.obj", &bad_cube());
+    place.write("taken", "");
+    let (code, out, err) = place.run(&["repair", "bad.obj", "--out", "taken/x.obj"]);
+    assert_eq!((code, out.as_str()), (1, ""));
+    assert!(err.contains("taken"), "{err}");
+    let (code, _, _) = place.run(&["repair", "nowhere.obj", "--out", "new/x.obj"]);
+    assert!(code == 1 && !place.exists("new"));
 }
 
 #[test]

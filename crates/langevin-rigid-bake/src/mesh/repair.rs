@@ -21,9 +21,10 @@ pub use report::{Repaired, Step, Unrepaired};
 
 use super::boundary::open_sides;
 use super::edges::sorted_sides;
+use super::parts::components;
 use super::vector::{bounding_box, cross, norm, sub};
 use super::wrap::{Wrap, wrap};
-use super::{TriMesh, check, weld as welding};
+use super::{MeshError, TriMesh, check, weld as welding};
 use crate::progress::Progress;
 
 /// Share of the diagonal of the bounding box within which open vertices are welded by default: a hundred
@@ -50,7 +51,7 @@ pub struct Options {
     /// Triangles to simplify to.
     pub triangles: Option<usize>,
     /// In place of all this wrap the triangles: one closed surface around them that closes gaps up to about
-    /// this size (m) and leaves out what is inside.
+    /// this size (m) and leaves out what is inside. Closed parts that meet are wrapped unasked.
     pub wrap: Option<f64>,
     /// Keep the component with the largest surface and drop the others.
     pub largest: bool,
@@ -116,7 +117,7 @@ fn mend(
     if let Some(size) = options.wrap {
         progress.report("wrapping", 0.0);
         drop_unusable(soup, options);
-        let body = soup.wrapped(size)?;
+        let body = soup.wrapped(size, None)?;
         return soup.simplified(body, options.triangles);
     }
     let stages: [(&str, Stage); 11] = [
@@ -142,7 +143,13 @@ fn mend(
             stage(soup, options);
         }
     }
-    let body = soup.thickened(options.thickness)?;
+    let body = match soup.thickened(options.thickness) {
+        Err(Unrepaired::NoBody(MeshError::PartsMeet { wrap, .. })) if soup.is_closed() => {
+            progress.report("wrapping", 0.0);
+            soup.wrapped(wrap, Some(soup.volume_of_parts()))?
+        }
+        body => body?,
+    };
     soup.simplified(body, options.triangles)
 }
 
@@ -179,12 +186,26 @@ impl Soup {
         Ok(body)
     }
 
-    fn wrapped(&mut self, size: f64) -> Result<TriMesh, Unrepaired> {
-        let Wrap { body, made } = wrap(&self.vertices, &self.triangles, size)?;
+    fn is_closed(&self) -> bool {
+        open_sides(&sorted_sides(&self.triangles)).is_empty()
+    }
+
+    /// Sum of the volumes of the components (m³), each turned outward.
+    fn volume_of_parts(&self) -> f64 {
+        let roots = components(self.triangles.len(), &sorted_sides(&self.triangles));
+        let volumes = signed_volumes(&self.vertices, &self.triangles, &roots);
+        volumes.iter().map(|v| v.abs()).sum()
+    }
+
+    fn wrapped(&mut self, size: f64, parts: Option<f64>) -> Result<TriMesh, Unrepaired> {
+        let Wrap { body, made, leak } = wrap(&self.vertices, &self.triangles, size)?;
         self.did(Step::Wrapped {
             size,
             triangles: body.triangles().len(),
             made,
+            volume: body.volume(),
+            parts,
+            leak,
         });
         Ok(body)
     }
@@ -243,6 +264,20 @@ fn drop_unusable(soup: &mut Soup, _: &Options) {
     soup.did(Step::Unused {
         vertices: before[1] - soup.vertices.len(),
     });
+}
+
+/// Diagonal of the box around what can be used of a mesh (m), 0 where that is nothing.
+pub fn diagonal(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> f64 {
+    let used = triangles
+        .iter()
+        .flatten()
+        .filter(|&&v| is_place(vertices, v));
+    let places: Vec<[f64; 3]> = used.map(|&v| vertices[v as usize]).collect();
+    if places.is_empty() {
+        return 0.0;
+    }
+    let [low, high] = bounding_box(&places);
+    norm(sub(high, low))
 }
 
 /// Area of the triangles that can be used, each once (m²).

@@ -5,6 +5,7 @@
 //! offset, which then moves onto the triangles.
 
 mod grid;
+mod leak;
 mod tetrahedra;
 mod triangle;
 
@@ -15,6 +16,7 @@ use super::intersect::meetings;
 use super::vector::{add, norm, scale, sub};
 use super::{MeshError, TriMesh};
 use grid::Grid;
+pub use leak::Leak;
 
 /// Offset in distances of nodes: above half the longest edge of a tetrahedron, sqrt(3) / 2, so that no
 /// triangle slips through between nodes.
@@ -34,6 +36,8 @@ pub(super) struct Wrap {
     pub(super) body: TriMesh,
     /// Area of what closes gaps (m²).
     pub(super) made: f64,
+    /// Where a coarser one would enclose more.
+    pub(super) leak: Option<Leak>,
 }
 
 /// Why there is no wrap.
@@ -72,6 +76,9 @@ pub(super) fn wrap(
     triangles: &[[u32; 3]],
     size: f64,
 ) -> Result<Wrap, WrapError> {
+    if triangles.is_empty() {
+        return Err(WrapError::Nothing);
+    }
     if !(size > 0.0 && size.is_finite()) {
         return Err(WrapError::BadSize(size));
     }
@@ -79,26 +86,33 @@ pub(super) fn wrap(
         .iter()
         .map(|t| t.map(|v| vertices[v as usize]))
         .collect();
+    let (made, body) = surround(&corners, size)?;
+    let leak = Leak::find(&corners, size, body.volume());
+    Ok(Wrap { body, made, leak })
+}
+
+/// The surface at one size, and the area of what closes gaps (m²).
+fn surround(corners: &[grid::Corners], size: f64) -> Result<(f64, TriMesh), WrapError> {
     let offset = 0.5 * size;
     let pitch = offset / OFFSET;
-    let (nodes, shape) = Grid::shape(&corners, pitch).ok_or(WrapError::Nothing)?;
+    let (nodes, shape) = Grid::shape(corners, pitch).ok_or(WrapError::Nothing)?;
     if nodes > MOST_NODES {
         return Err(WrapError::TooFine {
             size,
             nodes,
-            advised: advised(&corners, size * libm::cbrt(nodes / MOST_NODES)),
+            advised: advised(corners, size * libm::cbrt(nodes / MOST_NODES)),
         });
     }
-    let grid = Grid::new(&corners, pitch, offset, shape);
+    let grid = Grid::new(corners, pitch, offset, shape);
     let (at_offset, triangles) = tetrahedra::surface(&grid, offset);
     let settled = settled(&grid, &at_offset, &triangles, offset);
     let body = TriMesh::new(settled, triangles).map_err(WrapError::NoBody)?;
     let is_made = |t: &usize| grid.distance_of(body.centroid(*t)) > MADE * offset;
     let made = (0..body.triangles().len()).filter(is_made);
-    Ok(Wrap {
-        made: made.map(|t| body.area(t)).sum(),
+    Ok((
+        made.map(|t| body.area(t)).fold(0.0, |sum, area| sum + area),
         body,
-    })
+    ))
 }
 
 /// A size of two digits, `size` (m) or little more, that the memory has room for.

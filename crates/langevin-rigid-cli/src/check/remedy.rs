@@ -31,6 +31,7 @@ impl Remedy {
     /// reads it as the rim of a sheet.
     pub(super) fn find(raw: &RawMesh, survey: &Survey, bars: &Bars) -> Remedy {
         let mut remedy = Remedy::default();
+        let of_debris = others_are_debris(survey);
         for (flags, options) in tries(survey) {
             let is_sheet = options.thickness.is_some();
             // A wrap is the last resort.
@@ -41,6 +42,10 @@ impl Remedy {
             match repaired.body {
                 Err(error) => {
                     remedy.left.get_or_insert(error);
+                    continue;
+                }
+                // Debris that meets the body is dropped rather than wrapped with it.
+                Ok(_) if !options.largest && of_debris && wrapped_unasked(&repaired.steps) => {
                     continue;
                 }
                 Ok(_) if remedy.flags.is_some() => remedy.sheet_flags = Some(flags),
@@ -101,9 +106,15 @@ fn tries(survey: &Survey) -> Vec<(String, Options)> {
     .collect()
 }
 
+fn wrapped_unasked(steps: &[Step]) -> bool {
+    let unasked = |step: &Step| matches!(step, Step::Wrapped { parts: Some(_), .. });
+    steps.iter().any(unasked)
+}
+
 /// Whether all components but the largest are small or inside it, so that dropping them is not to lose a
-/// part of the body.
+/// part of the body. Where some meet, a first vertex inside does not say that all is.
 fn others_are_debris(survey: &Survey) -> bool {
     let mut others = survey.components.iter().skip(1);
-    others.all(|c| c.inside == Some(0) || c.area < DEBRIS * survey.area)
+    let apart = survey.meeting.count == 0;
+    others.all(|c| (apart && c.inside == Some(0)) || c.area < DEBRIS * survey.area)
 }

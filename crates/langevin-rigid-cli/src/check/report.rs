@@ -4,7 +4,7 @@ mod table;
 
 use langevin_rigid_bake::added_mass::{AddedMassError, Expected, Options, Thinnest, expected};
 use langevin_rigid_bake::mesh::{Component, Faults, Hole, Survey};
-use langevin_rigid_formats::mesh::FileUnit;
+use langevin_rigid_formats::mesh::{FileUnit, LengthUnit};
 use serde::Serialize;
 
 use super::remedy::Remedy;
@@ -30,6 +30,9 @@ pub(super) struct Report {
     size_if_m: [f64; 3],
     size_if_cm: [f64; 3],
     size_if_mm: [f64; 3],
+    size_if_um: [f64; 3],
+    size_if_in: [f64; 3],
+    size_if_ft: [f64; 3],
     unit_hint: Option<String>,
     area: f64,
     /// Of the solid, without cavities; nothing while there are holes or parts meet.
@@ -99,7 +102,8 @@ impl Report {
     pub(super) fn new(options: &Check, unit: FileUnit, survey: &Survey, remedy: &Remedy) -> Report {
         let size: [f64; 3] = std::array::from_fn(|k| survey.bounds[1][k] - survey.bounds[0][k]);
         let in_file = size.map(|x| x / unit.to_metres(1.0));
-        let [m, cm, mm] = [1.0, 1e-2, 1e-3].map(|unit| in_file.map(|x| x * unit));
+        let sizes = UNITS.map(|unit| in_file.map(|x| unit.to_metres(x)));
+        let [m, cm, mm, um, inches, feet] = sizes;
         let body = survey.body.as_ref().ok().or(remedy.body.as_ref());
         let foretold = body.map(|body| expected(body, &Options::default()));
         let too_large = foretold.as_ref().is_some_and(Result::is_err);
@@ -124,7 +128,10 @@ impl Report {
             size_if_m: m,
             size_if_cm: cm,
             size_if_mm: mm,
-            unit_hint: unit_hint(size, [m, cm, mm]),
+            size_if_um: um,
+            size_if_in: inches,
+            size_if_ft: feet,
+            unit_hint: unit_hint(size, sizes),
             area: survey.area,
             volume: closed.then_some(survey.volume),
             holes: survey.holes.len(),
@@ -223,8 +230,18 @@ fn fault(survey: &Survey, foretold: &Option<Result<Expected, AddedMassError>>) -
     of_body.or(of_size.map(ToString::to_string))
 }
 
+/// In the order of the report.
+const UNITS: [LengthUnit; 6] = [
+    LengthUnit::M,
+    LengthUnit::Cm,
+    LengthUnit::Mm,
+    LengthUnit::Um,
+    LengthUnit::In,
+    LengthUnit::Ft,
+];
+
 /// The unit in which the box has a likely size, where it has none in the unit given.
-fn unit_hint(size: [f64; 3], others: [[f64; 3]; 3]) -> Option<String> {
+fn unit_hint(size: [f64; 3], others: [[f64; 3]; 6]) -> Option<String> {
     let likely = |size: &[f64; 3]| {
         let longest = size.iter().copied().fold(0.0, f64::max);
         (LIKELY[0]..=LIKELY[1]).contains(&longest)
@@ -232,12 +249,13 @@ fn unit_hint(size: [f64; 3], others: [[f64; 3]; 3]) -> Option<String> {
     if likely(&size) {
         return None;
     }
-    let names = ["m", "cm", "mm"];
     // Millimetres are what programs write when they do not write metres.
-    let unit = [0, 2, 1].into_iter().find(|&k| likely(&others[k]))?;
+    let unit = [0, 2, 1, 4, 5, 3]
+        .into_iter()
+        .find(|&k| likely(&others[k]))?;
     Some(format!(
         "give `--unit {}` if the box is right then",
-        names[unit]
+        UNITS[unit]
     ))
 }
 

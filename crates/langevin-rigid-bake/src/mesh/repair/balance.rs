@@ -1,7 +1,7 @@
 //! How much of a repaired body is the mesh that was given.
 
 use super::Step;
-use crate::mesh::{TriMesh, hull};
+use crate::mesh::{Leak, TriMesh, hull};
 
 /// Share of the area that may be lost or made without a word.
 const NOTABLE: f64 = 0.05;
@@ -21,15 +21,23 @@ pub struct Balance {
     pub volume: f64,
     /// Volume of its convex hull (m³).
     pub hull: f64,
+    /// Where a wrap encloses less than a coarser one.
+    pub leak: Option<Leak>,
 }
 
 impl Balance {
     pub(super) fn new(given: f64, steps: &[Step], body: &TriMesh) -> Balance {
-        let (mut lost, mut made) = (0.0, 0.0);
+        let (mut lost, mut made, mut leaking) = (0.0, 0.0, None);
         for step in steps {
             match step {
                 Step::Components { area, .. } => lost += area,
-                Step::Filled { area, .. } | Step::Wrapped { made: area, .. } => made += area,
+                Step::Filled { area, .. } => made += area,
+                Step::Wrapped {
+                    made: area, leak, ..
+                } => {
+                    made += area;
+                    leaking = *leak;
+                }
                 _ => {}
             }
         }
@@ -40,6 +48,7 @@ impl Balance {
             area: body.surface_area(),
             volume: body.volume(),
             hull: hull::volume(body.vertices()),
+            leak: leaking,
         }
     }
 
@@ -73,7 +82,8 @@ impl Balance {
                 100.0 * made
             )
         });
-        [lost, made].into_iter().flatten().collect()
+        let leak = self.leak.map(|leak| leak.to_string());
+        [lost, made, leak].into_iter().flatten().collect()
     }
 }
 

@@ -5,7 +5,7 @@ use std::fmt;
 use super::Balance;
 use crate::mesh::boundary::{Hole, loops, open_sides};
 use crate::mesh::edges::sorted_sides;
-use crate::mesh::{MeshError, ProxyError, TriMesh, WrapError};
+use crate::mesh::{Leak, MeshError, ProxyError, TriMesh, WrapError};
 
 /// What became of a mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,6 +107,13 @@ pub enum Step {
         triangles: usize,
         /// Area of what closes gaps (m²).
         made: f64,
+        /// Volume enclosed (m³).
+        volume: f64,
+        /// Where closed parts met and no wrap was asked for: the sum of their volumes (m³), in which what they
+        /// share counts for each.
+        parts: Option<f64>,
+        /// Where a coarser wrap would enclose more.
+        leak: Option<Leak>,
     },
     /// Simplified the body, keeping its volume.
     Simplified {
@@ -220,10 +227,24 @@ impl fmt::Display for Step {
                 size,
                 triangles,
                 made,
-            } => write!(
-                f,
-                "wrapped all in a surface of {triangles} triangles that closes gaps up to {size:.3e} m, with {made:.3e} m^2 across gaps"
-            ),
+                volume,
+                parts,
+                ..
+            } => {
+                let what = if parts.is_some() {
+                    "parts that overlap or touch"
+                } else {
+                    "all"
+                };
+                write!(
+                    f,
+                    "wrapped {what} in a surface of {triangles} triangles that closes gaps up to {size:.3e} m, with {made:.3e} m^2 across gaps"
+                )?;
+                match parts {
+                    Some(parts) => write!(f, "; {parts:.6e} m^3 of parts became {volume:.6e} m^3"),
+                    None => write!(f, "; it encloses {volume:.6e} m^3"),
+                }
+            }
             Step::Simplified { from, to } => {
                 write!(
                     f,

@@ -357,6 +357,74 @@ fn what_is_lost_and_made_is_said() {
     assert!(kept.warnings().is_empty());
 }
 
+/// Two unit cubes half in each other, one of them inside out: together 1.5 m³.
+#[test]
+fn closed_parts_that_meet_become_one() {
+    let mut second = shifted(&cube(12), [0.5, 0.0, 0.0], 1.0);
+    second.1.iter_mut().for_each(|t| t.swap(0, 1));
+    let both = together(&cube(12), &second);
+    let repaired = mended(&both, &Options::default());
+    let body = repaired.body.unwrap();
+    assert!(
+        (body.volume() / 1.5 - 1.0).abs() < 0.01,
+        "{}",
+        body.volume()
+    );
+    let Some(Step::Wrapped {
+        size,
+        volume,
+        parts: Some(parts),
+        leak: None,
+        ..
+    }) = repaired.steps.last()
+    else {
+        panic!("{:?}", repaired.steps);
+    };
+    assert_eq!(*volume, body.volume());
+    assert!((parts - 2.0).abs() < 1e-12, "{parts}");
+    // A fiftieth of the diagonal of 1.5 by 1 by 1.
+    assert_eq!(*size, 0.041);
+    let balance = repaired.balance.unwrap();
+    assert!(balance.made_share() < 0.01 && balance.warnings().is_empty());
+    let few = Options {
+        triangles: Some(500),
+        ..Options::default()
+    };
+    let few = mended(&both, &few).body.unwrap();
+    assert!(few.triangles().len() <= 500);
+    assert!((few.volume() / body.volume() - 1.0).abs() < 1e-12);
+}
+
+/// Sheets that would meet once they are thick are not solids that meet.
+#[test]
+fn sheets_that_meet_are_not_wrapped_unasked() {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let sheet = (
+        corners.map(|[x, y]| [x, y, 0.0]).to_vec(),
+        vec![[0, 1, 2], [0, 2, 3]],
+    );
+    let both = together(&sheet, &shifted(&sheet, [0.0, 0.0, 0.01], 1.0));
+    let thick = Options {
+        thickness: Some(0.05),
+        ..Options::default()
+    };
+    let error = mended(&both, &thick).body.unwrap_err();
+    assert!(
+        matches!(error, Unrepaired::NoBody(MeshError::PartsMeet { .. })),
+        "{error}"
+    );
+}
+
+#[test]
+fn the_diagonal_is_that_of_what_can_be_used() {
+    let (mut vertices, mut triangles) = cube(12);
+    let n = vertices.len() as u32;
+    vertices.extend([[9.0; 3], [1e300; 3], [f64::NAN; 3]]);
+    triangles.push([n + 1, n + 2, n + 7]);
+    assert!((diagonal(&vertices, &triangles) - f64::sqrt(3.0)).abs() < 1e-15);
+    assert_eq!(diagonal(&[], &[]), 0.0);
+}
+
 #[test]
 fn what_touches_is_taken_apart() {
     let one = cube(12);

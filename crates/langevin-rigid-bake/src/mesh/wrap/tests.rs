@@ -48,6 +48,43 @@ fn gaps_are_closed_up_to_the_size() {
     assert!(made > 0.02 && made < 0.2, "{made}");
 }
 
+/// The hollow box with a slot again: a wrap that the water enters says so, and names a size that it does not.
+#[test]
+fn a_wrap_that_the_fluid_enters_says_so() {
+    let brick = Shape::Box { size: [1.0; 3] }.mesh(4800).unwrap();
+    let in_slot = |t: &[u32; 3]| {
+        let centre = t.map(|v| brick.vertices()[v as usize]);
+        let [x, y, z] = [0, 1, 2].map(|k| centre.iter().map(|p| p[k]).sum::<f64>() / 3.0);
+        z > 0.499 && x.abs() < 0.05 && y.abs() < 0.3
+    };
+    let mut open = brick.triangles().to_vec();
+    open.retain(|t| !in_slot(t));
+    let leak = wrap(brick.vertices(), &open, 0.04).unwrap().leak.unwrap();
+    assert!(leak.coarser > 1.1 * leak.volume, "{leak:?}");
+    let advised = leak.advised.unwrap();
+    assert!(leak.to_string().contains(&format!("--wrap {advised}")));
+    let tight = wrap(brick.vertices(), &open, advised).unwrap();
+    assert!((tight.body.volume() - 1.0).abs() < 0.05);
+    assert_eq!(tight.leak, None);
+}
+
+/// Nothing leaks where nothing is open: round and sharp, convex and not, at fine and coarse sizes.
+#[test]
+fn a_wrap_of_a_closed_body_does_not_leak() {
+    let semi_axes = [1.0, 0.8, 0.5];
+    let ball = Shape::Ellipsoid { semi_axes }.mesh(1280).unwrap();
+    let size = [2.0, 1.0, 0.5];
+    let brick = Shape::Box { size }.mesh(12).unwrap();
+    for mesh in [ball, brick] {
+        for size in [0.05, 0.1, 0.3, 1.0, 5.0, 1e300] {
+            let leak = wrap(mesh.vertices(), mesh.triangles(), size)
+                .ok()
+                .and_then(|w| w.leak);
+            assert_eq!(leak, None, "{size}");
+        }
+    }
+}
+
 #[test]
 fn an_open_sheet_becomes_about_half_as_thick_as_the_size() {
     let corners = [
@@ -56,8 +93,10 @@ fn an_open_sheet_becomes_about_half_as_thick_as_the_size() {
         [1.0, 1.0, 0.0],
         [0.0, 1.0, 0.0],
     ];
-    let sheet = wrap(&corners, &[[0, 1, 2], [0, 2, 3]], 0.1).unwrap().body;
-    let thickness = sheet.volume() / 1.0;
+    let sheet = wrap(&corners, &[[0, 1, 2], [0, 2, 3]], 0.1).unwrap();
+    // A wrap of twice the size is twice as thick.
+    assert!(sheet.leak.is_some());
+    let thickness = sheet.body.volume() / 1.0;
     assert!((0.04..0.065).contains(&thickness), "{thickness}");
 }
 

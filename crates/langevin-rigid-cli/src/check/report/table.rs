@@ -31,6 +31,9 @@ impl Report {
                 ("m", self.size_if_m),
                 ("cm", self.size_if_cm),
                 ("mm", self.size_if_mm),
+                ("um", self.size_if_um),
+                ("in", self.size_if_in),
+                ("ft", self.size_if_ft),
             ] {
                 line("", format!("{} m if it is in `{unit}`", box_of(size)));
             }
