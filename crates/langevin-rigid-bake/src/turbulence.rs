@@ -56,6 +56,7 @@ pub use projection::Projection;
 
 /// Why a turbulence history could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TurbulenceError {
     /// An axis of the grid has no cells.
     #[error("the grid has {cells:?} cells along x, y, z: each needs at least 1")]

@@ -22,6 +22,7 @@ pub struct Pose {
 
 /// Why poses are no motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MotionError {
     /// The trajectory is empty.
     #[error("the trajectory has no poses: give at least one")]

@@ -98,6 +98,7 @@ pub struct BodySource {
 
 /// A body's surface.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Geometry {
     /// A parametric body.
     Shape {

@@ -16,6 +16,7 @@ const PATIENCE: u64 = 256;
 
 /// Why a fall ended.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum FallEnding {
     /// The body touched the ground, or the floor of the tank.
     Ground,

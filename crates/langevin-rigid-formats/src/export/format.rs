@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 /// A file format of recordings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// Comma-separated values, every step: `trajectory.csv`.
     Csv,

@@ -58,6 +58,7 @@ impl BuiltIn {
 
 /// Why a scene could not be opened.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum FindError {
     /// Neither a built-in scene nor a file.
     #[error(
