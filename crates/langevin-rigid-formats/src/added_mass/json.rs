@@ -17,8 +17,8 @@ struct Document<'a> {
 ///
 /// # Errors
 ///
-/// That of a number or name that JSON cannot hold, which these types never cause.
-pub fn json(report: &Report) -> std::io::Result<String> {
+/// [`serde_json::Error`], which these types never cause.
+pub fn json(report: &Report) -> Result<String, serde_json::Error> {
     let conventions = Statement::new(report);
     let document = Document {
         report,
