@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-/// Our own sources and, in the workspace, those of the run time. A package of the run time lies elsewhere; its
-/// version names its sources.
+/// Our own sources and, in the workspace, those of the run time. A package of the run time lies elsewhere; it has our
+/// own version, which names its sources.
 const SOURCES: [&str; 2] = ["src", "../langevin-rigid/src"];
 
 fn main() -> std::io::Result<()> {
     let mut hash = Sha256::new();
+    hash.update(env!("CARGO_PKG_VERSION"));
     for root in SOURCES.map(Path::new).into_iter().filter(|r| r.is_dir()) {
         println!("cargo::rerun-if-changed={}", root.display());
         let mut files = Vec::new();

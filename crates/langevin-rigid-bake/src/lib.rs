@@ -13,6 +13,6 @@ pub mod turbulence;
 
 pub use mesh::{MeshError, TriMesh};
 
-/// Hash of the sources of this crate and, in the workspace, of the run time: code of another hash may bake
-/// another body of the same mesh.
+/// Hash of the version, of the sources of this crate and, in the workspace, of the run time: code of another hash may
+/// bake another body of the same mesh.
 pub const SOURCES: &str = env!("LANGEVIN_RIGID_SOURCES");

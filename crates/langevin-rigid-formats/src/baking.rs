@@ -21,6 +21,7 @@ use crate::scene::{Geometry, Scene};
 
 /// Why a scene could not be baked.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum SceneBakeError {
     /// The mesh file could not be read.
     #[error(transparent)]

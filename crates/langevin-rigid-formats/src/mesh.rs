@@ -151,6 +151,7 @@ impl RawMesh {
 
 /// A mesh file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MeshFormat {
     /// Wavefront OBJ.
     Obj,

@@ -51,6 +51,7 @@ pub struct Subject<'a> {
 
 /// Where the picture is seen from. All views are orthographic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum View {
     /// From +z: x to the right, y up.
     Front,

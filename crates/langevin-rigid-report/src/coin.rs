@@ -35,10 +35,9 @@ pub(crate) fn section(options: &Options, progress: &dyn Progress) -> Result<Sect
     section.row(&[depth_chart(&statistics), spread_chart(&statistics)]);
     table(&mut section, &statistics);
     section.file("landings.csv", landings_csv(&falls));
-    section.file(
-        "statistics.json",
-        serde_json::to_string_pretty(&statistics)? + "\n",
-    );
+    let json =
+        serde_json::to_string_pretty(&statistics).map_err(|e| ReportError::Json(e.into()))?;
+    section.file("statistics.json", json + "\n");
     Ok(section)
 }
 

@@ -137,7 +137,7 @@ pub enum ReportError {
     Picture(#[from] PictureError),
     /// Numbers could not be written as JSON.
     #[error(transparent)]
-    Json(#[from] serde_json::Error),
+    Json(std::io::Error),
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -195,7 +195,7 @@ fn write(options: &Options, folder: &Path, report: &Report) -> Result<(), Report
         for (name, content) in &section.files {
             files::write(&place.join(name), content)?;
         }
-        let json = section.numbers.json()?;
+        let json = section.numbers.json().map_err(ReportError::Json)?;
         files::write(&place.join("numbers.json"), json.as_bytes())?;
     }
     let done = report.sections.len();

@@ -31,7 +31,7 @@ impl Numbers {
     }
 
     /// The numbers as a JSON object.
-    pub(crate) fn json(&self) -> Result<String, serde_json::Error> {
+    pub(crate) fn json(&self) -> std::io::Result<String> {
         Ok(serde_json::to_string_pretty(&self.0)? + "\n")
     }
 }

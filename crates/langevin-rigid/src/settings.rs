@@ -8,6 +8,7 @@ use crate::turbulence::TurbulenceSource;
 
 /// How the equations of motion are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Model {
     /// Kirchhoff's equations with Langevin loads through the added mass: the paper's method,
     /// dimensionally sound.
@@ -23,6 +24,7 @@ pub enum Model {
 
 /// How a step is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Integrator {
     /// Strang splitting: half a step of the linear Langevin part solved exactly, one step of
     /// Kirchhoff's part by a Lie-group Runge-Kutta scheme, half a step of the Langevin part.

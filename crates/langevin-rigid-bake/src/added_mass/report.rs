@@ -130,6 +130,7 @@ impl fmt::Display for Warning {
 
 /// Why there is no tensor.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum AddedMassError {
     /// [`Progress::cancelled`] said so.
     #[error("the added mass was cancelled")]

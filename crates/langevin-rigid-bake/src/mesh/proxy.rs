@@ -6,6 +6,7 @@ use crate::mesh::vector::{add, bounding_box, scale, sub};
 
 /// Why there is no proxy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProxyError {
     /// Fewer triangles than any body has.
     #[error("a proxy of {0} triangles cannot enclose a volume; ask for 4 or more, better 1000")]

@@ -42,6 +42,7 @@ pub(super) struct Wrap {
 
 /// Why there is no wrap.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum WrapError {
     /// There is nothing to wrap.
     #[error("there is nothing to wrap: no triangle can be used")]

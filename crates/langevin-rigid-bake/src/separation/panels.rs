@@ -75,7 +75,7 @@ impl Panel {
         let [a, b, c] = corners.map(|corner| corner.0);
         let twice = cross(sub(b, a), sub(c, a));
         let size = norm(twice);
-        if !(size > 0.0) {
+        if size == 0.0 || !size.is_finite() {
             return None;
         }
         let normal = scale(1.0 / size, twice);

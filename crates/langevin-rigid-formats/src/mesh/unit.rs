@@ -14,6 +14,7 @@ use std::str::FromStr;
 /// # Ok::<(), langevin_rigid_formats::mesh::UnknownUnit>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum LengthUnit {
     /// Metres.
     #[default]
