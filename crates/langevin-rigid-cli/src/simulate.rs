@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use anyhow::{Result, bail};
+use anyhow::{Context as _, Result, bail};
 use langevin_rigid::{Hull, Integrator, Model};
 use langevin_rigid_formats::baking::Baked;
 use langevin_rigid_formats::export::{self, ExportError, Format, Options, Recording};
@@ -25,7 +25,9 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     export::check(&options.format)?;
     let mut scene = scene::find(&options.scene)?;
     apply(options, &mut scene);
-    scene.steps()?;
+    scene
+        .steps()
+        .context("with the scene's values or those of `--dt` and `--duration`")?;
     let folder = options
         .out
         .clone()

@@ -400,7 +400,7 @@ fn a_film_is_numbered_and_of_one_size() {
     assert!((2..=7).all(|n| head(n) == head(1)));
     assert_eq!(std::fs::read_dir(place.path("film")).unwrap().count(), 7);
     let refused = place.run(&["simulate", &scene, "--frames", "film", "--fps", "1e9"]);
-    refused.fails_with(&["frames a second", "at most 99999"]);
+    refused.fails_with(&["frames a second", "99999 at most"]);
 }
 
 #[test]

@@ -108,9 +108,11 @@ fn what_cannot_be_exported_says_what_to_do() {
     place
         .run(&["export", "run", "--format", "csv", "--up", "z"])
         .fails_with(&["run's own table", "--out"]);
-    place
-        .run(&["export", "run", "--fps", "1e12"])
-        .fails_with(&["frames a second", "at most"]);
+    place.run(&["export", "run", "--fps", "1e12"]).fails_with(&[
+        "--fps 1000000000000.0",
+        "of memory",
+        "ask for less",
+    ]);
     for unknown in [
         ["export", "run", "--format", "fbx"],
         ["export", "run", "--up", "x"],
@@ -164,10 +166,10 @@ fn the_table_of_an_older_run_is_not_taken_for_that_of_the_last() {
 fn a_format_that_fails_takes_no_other_with_it() {
     let place = Place::new();
     let file = place.write("ball.toml", &scene(BALL, "duration = 0.1"));
-    let impossible = ["simulate", &file, "--format", "glb,npz", "--fps", "1e12"];
+    let impossible = ["simulate", &file, "--format", "glb,npz", "--fps", "2e8"];
     place
         .run(&impossible)
-        .fails_with(&["1000000000000 frames a second of 0.1", "at most"]);
+        .fails_with(&["200000000 frames a second of 0.1", "at most"]);
     let written = files(&place.path("out/ball"));
     for name in [
         "trajectory.npz",

@@ -10,6 +10,11 @@ use super::vector::{add, bounding_box, cross, dot, norm, scale, sub};
 /// precision.
 const TOUCH: f64 = 1e-7;
 
+/// Pairs of triangles that are compared, and others that a triangle is compared with at least. Only where thousands
+/// crowd in one place, as at the tip of a finely cut cone, are there more.
+const PAIRS: usize = 200_000_000;
+const LEAST: usize = 256;
+
 /// Two triangles that meet other than along common edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Meeting {
@@ -24,7 +29,8 @@ type Boxed = GeomWithData<Rectangle<[f64; 3]>, usize>;
 /// For each triangle that meets others, the first of them.
 ///
 /// Triangles meet where an edge of one passes through the other, or where they lie on each other. Surfaces
-/// that only share edges or points do not meet, whether or not they share the vertices.
+/// that only share edges or points do not meet, whether or not they share the vertices. Of a crowd beyond
+/// [`PAIRS`] a part is looked at.
 pub(super) fn meetings(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Meeting> {
     let places: Vec<Corners> = triangles
         .iter()
@@ -39,10 +45,12 @@ pub(super) fn meetings(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Mee
     };
     let tree = RTree::bulk_load(places.iter().enumerate().map(boxed).collect());
     let facets: Vec<Facet> = places.iter().map(Facet::new).collect();
+    let most = (PAIRS / places.len().max(1)).max(LEAST);
     let first = |t: usize| {
         let [low, high] = bounding_box(&places[t]);
         let near = tree.locate_in_envelope_intersecting(AABB::from_corners(low, high));
-        near.map(|other| other.data)
+        near.take(most)
+            .map(|other| other.data)
             .filter(|&other| other != t)
             .filter_map(|other| {
                 let position = meeting(&facets[t], &facets[other], touch)?;
