@@ -13,7 +13,10 @@ use langevin_rigid_formats::trajectory::read_csv;
 const SIGNALS: [(&str, i32); 3] = [("HUP", 129), ("INT", 130), ("TERM", 143)];
 
 fn start(place: &Place, arguments: &[&str]) -> Child {
-    Command::new(assert_cmd::cargo::cargo_bin("langevin-rigid"))
+    // Whoever runs the tests may have signals ignored (`nohup`), which a child inherits.
+    Command::new("env")
+        .arg("--default-signal=HUP,INT,TERM")
+        .arg(assert_cmd::cargo::cargo_bin("langevin-rigid"))
         .current_dir(place.0.path())
         .env("LANGEVIN_RIGID_CACHE", place.path("cache"))
         .args(arguments)
