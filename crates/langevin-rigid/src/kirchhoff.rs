@@ -125,6 +125,11 @@ impl Kirchhoff {
         }
     }
 
+    /// Largest acceleration by weight (m/s^2).
+    pub(crate) fn gain(&self) -> f64 {
+        norm(self.weight) * self.mobility
+    }
+
     /// Kinetic energy of body and fluid, 1/2 xi . T xi (J), in the frame of the undisturbed fluid.
     pub(crate) fn energy(&self, xi: &Vec6) -> f64 {
         0.5 * dot6(xi, &mul(&self.total, xi))

@@ -29,13 +29,17 @@ pub(crate) struct Pace<R = f64> {
     free: Rates<R>,
     /// Rates of the resistances.
     resisted: Rates<R>,
+    /// What weight and buoyancy add to the speed in a second (m/s^2), at most.
+    gain: R,
 }
 
 /// A step of the explicit scheme is at most this over the fastest rate. The scheme of fourth order is
 /// stable to 2.8.
 const EXPLICIT: f64 = 1.0;
-/// The same for the scheme that takes resistances implicitly and the rest by the midpoint, which is of
-/// second order.
+/// Where the resistances are this many times as fast as the rest and the step, they are taken implicitly.
+const STIFF: f64 = 16.0;
+/// A part that takes them so, and the rest by the midpoint rule of second order, is at most this over the rate
+/// of the rest.
 const IMPLICIT: f64 = 0.25;
 /// A part is no smaller than the step over this.
 pub(crate) const MOST_PARTS: u32 = 256;
@@ -60,6 +64,7 @@ impl Pace {
         Self {
             free: probe.rates(|xi| spectral_radius(&probe.jacobian(xi))),
             resisted: probe.rates(|xi| spectral_radius(&probe.relaxation(xi))),
+            gain: kirchhoff.gain(),
         }
     }
 
@@ -68,6 +73,7 @@ impl Pace {
         Pace {
             free: self.free.lift(like),
             resisted: self.resisted.lift(like),
+            gain: like.of(self.gain),
         }
     }
 
@@ -84,26 +90,26 @@ impl<R: Real> Pace<R> {
     #[inline(always)]
     pub(crate) fn part(&self, xi: &Vec6<R>, left: R, least: R) -> Part<R> {
         let (v, omega) = split(xi);
-        let (speed, spin) = (norm(v), norm(omega));
+        let (speed, spin) = (norm(v) + self.gain * left, norm(omega));
         let (free, resisted) = (self.free.at(speed, spin), self.resisted.at(speed, spin));
         let explicit = left.of(EXPLICIT);
-        let short = !explicit.less(left * free.max(resisted));
-        if !R::any(!short) {
+        let long = explicit.less(left * free.max(resisted));
+        if !R::any(long) {
             return Part {
                 h: left,
-                stiff: !short,
+                stiff: long,
             };
         }
-        let wanted = (explicit / free).max(least).min(left);
-        let stiff = explicit.less(wanted * resisted);
+        let others = free.max(explicit / left);
+        let stiff = long & (others * left.of(STIFF)).less(resisted);
         let wanted = R::choose(
             stiff,
-            (left.of(IMPLICIT) / free).max(least).min(left),
-            wanted,
+            left.of(IMPLICIT) / free,
+            explicit / free.max(resisted),
         );
         Part {
-            h: R::choose(short, left, wanted),
-            stiff: stiff & !short,
+            h: R::choose(long, wanted.max(least).min(left), left),
+            stiff,
         }
     }
 }
