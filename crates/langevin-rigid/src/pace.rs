@@ -7,7 +7,9 @@
 //! honey), are kept apart from the others.
 
 use crate::kirchhoff::Kirchhoff;
-use crate::linalg::{Mat6, Vec3, Vec6, join, mul, norm, product, scale, split, transpose};
+use crate::linalg::{
+    Mat3, Mat6, Vec3, Vec6, invert_spd, join, mul, norm, product, scale, split, transpose,
+};
 use crate::real::Real;
 use crate::separated::Closure;
 
@@ -36,6 +38,9 @@ pub(crate) struct Pace<R = f64> {
 /// A step of the explicit scheme is at most this over the fastest rate. The scheme of fourth order is
 /// stable to 2.8.
 const EXPLICIT: f64 = 1.0;
+/// Weight of the rate at which the impulse's moment passes through a small inertia: without it steps are stable to
+/// 3.3 over that rate.
+const IMPULSE: f64 = 0.5;
 /// Where the resistances are this many times as fast as the rest and the step, they are taken implicitly.
 const STIFF: f64 = 16.0;
 /// A part that takes them so, and the rest by the midpoint rule of second order, is at most this over the rate
@@ -61,8 +66,10 @@ impl Pace {
             closure,
             length,
         };
+        let mut free = probe.rates(|xi| spectral_radius(&probe.jacobian(xi)));
+        free.speed = free.speed.max(IMPULSE * impulse_rate(&kirchhoff.total));
         Self {
-            free: probe.rates(|xi| spectral_radius(&probe.jacobian(xi))),
+            free,
             resisted: probe.rates(|xi| spectral_radius(&probe.relaxation(xi))),
             gain: kirchhoff.gain(),
         }
@@ -129,6 +136,31 @@ impl<R: Real> Rates<R> {
     fn at(&self, speed: R, spin: R) -> R {
         self.still + (self.speed * speed + self.spin * spin)
     }
+}
+
+/// How fast, at unit speed, the moment of the linear impulse about where the step began changes beside the inertia of
+/// rotation (1/m): the speed over a radius of gyration. The scheme takes the spin from the difference of that moment
+/// and the angular impulse, so what it errs by in the one shows in the other, most in bodies lighter than their fluid.
+fn impulse_rate(total: &Mat6) -> f64 {
+    let block = |k: usize| -> Mat3 {
+        std::array::from_fn(|i| std::array::from_fn(|j| total[k + i][k + j]))
+    };
+    let (linear, angular) = (block(0), block(3));
+    let Some(inverse) = invert_spd(&angular) else {
+        return 0.0;
+    };
+    let largest = |e: Vec3| {
+        let [x, y, z] = e;
+        let arm = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
+        let moment = product(&transpose(&arm), &product(&inverse, &arm));
+        let rate: Mat3 = product(&linear, &moment);
+        let mut m = [[0.0; 6]; 6];
+        for i in 0..3 {
+            m[i][..3].copy_from_slice(&rate[i]);
+        }
+        spectral_radius(&m).sqrt()
+    };
+    directions().map(largest).fold(0.0, f64::max)
 }
 
 /// Radius of gyration of the total tensor (m), for a body without extents.
