@@ -80,8 +80,8 @@ fn about(counted: u64) -> LibraryBenchmarkConfig {
 
 // 100 steps of one body.
 #[library_benchmark]
-#[bench::consistent(args = (Model::Consistent), setup = stepper, config = about(271_055))]
-#[bench::separated(args = (Model::Separated), setup = stepper, config = about(553_070))]
+#[bench::consistent(args = (Model::Consistent), setup = stepper, config = about(319_475))]
+#[bench::separated(args = (Model::Separated), setup = stepper, config = about(588_354))]
 fn step(stepper: Stepper) -> State {
     let mut state = State::default();
     for _ in 0..STEPS {
@@ -93,8 +93,8 @@ fn step(stepper: Stepper) -> State {
 
 // 100 steps of each of 64 bodies, in the lanes that valgrind knows: four of doubles.
 #[library_benchmark]
-#[bench::consistent(args = (Model::Consistent), setup = many, config = about(5_338_855))]
-#[bench::separated(args = (Model::Separated), setup = many, config = about(8_888_194))]
+#[bench::consistent(args = (Model::Consistent), setup = many, config = about(5_728_158))]
+#[bench::separated(args = (Model::Separated), setup = many, config = about(9_399_828))]
 fn step_batch((stepper, mut batch): (Stepper, Batch)) -> Batch {
     for _ in 0..STEPS {
         stepper.step_batch(black_box(&mut batch), 5e-3).unwrap();
