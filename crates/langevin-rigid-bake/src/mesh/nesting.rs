@@ -7,8 +7,9 @@ use super::vector::bounding_box;
 
 /// For each of the `roots`, the closed components around its first corner, by their place among the `roots`.
 ///
-/// `root_of` gives the root, the lowest triangle, of each triangle's component. Surfaces that meet are inside
-/// each other or not, as their first corners happen to be.
+/// `root_of` gives the root, the lowest triangle, of each triangle's component. A component is inside another only if
+/// its box is, so that rounding never puts two into each other; surfaces that meet are inside or not, as their first
+/// corners happen to be.
 pub(super) fn around(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
@@ -29,6 +30,20 @@ pub(super) fn around(
         let flat = |p: [f64; 3]| [p[1], p[2]];
         GeomWithData::new(Rectangle::from_corners(flat(low), flat(high)), t)
     };
+    let mut boxes = vec![[[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]; roots.len()];
+    for t in 0..triangles.len() {
+        let [low, high] = bounding_box(&corners(t));
+        let [lowest, highest] = &mut boxes[places[root_of[t]]];
+        for i in 0..3 {
+            lowest[i] = lowest[i].min(low[i]);
+            highest[i] = highest[i].max(high[i]);
+        }
+    }
+    let holds = |outer: usize, inner: usize| {
+        let ([low, high], [inner_low, inner_high]) = (boxes[outer], boxes[inner]);
+        boxes[outer] != boxes[inner]
+            && (0..3).all(|i| low[i] <= inner_low[i] && inner_high[i] <= high[i])
+    };
     let shadows = (0..triangles.len()).filter(|&t| closed(root_of[t]));
     let tree = RTree::bulk_load(shadows.map(shadow).collect());
     let surrounding = |(place, &root): (usize, &usize)| {
@@ -43,7 +58,9 @@ pub(super) fn around(
         let odd = hit
             .chunk_by(|a, b| a == b)
             .filter(|hits| hits.len() % 2 == 1);
-        odd.map(|hits| hits[0]).collect()
+        odd.map(|hits| hits[0])
+            .filter(|&outer| holds(outer, place))
+            .collect()
     };
     roots.iter().enumerate().map(surrounding).collect()
 }
