@@ -33,7 +33,9 @@ pub(super) fn around(
     let mut boxes = vec![[[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]; roots.len()];
     for t in 0..triangles.len() {
         let [low, high] = bounding_box(&corners(t));
-        let [lowest, highest] = &mut boxes[places[root_of[t]]];
+        let Some([lowest, highest]) = boxes.get_mut(places[root_of[t]]) else {
+            continue;
+        };
         for i in 0..3 {
             lowest[i] = lowest[i].min(low[i]);
             highest[i] = highest[i].max(high[i]);
