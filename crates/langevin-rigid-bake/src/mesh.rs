@@ -232,6 +232,7 @@ impl TriMesh {
         Cow::Owned(TriMesh {
             vertices,
             triangles,
+            turned: 0,
             sealed: Vec::new(),
             ..*self
         })

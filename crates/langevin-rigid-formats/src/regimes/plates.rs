@@ -103,8 +103,9 @@ fn strip(inertia_ratio: f64, h: f64) -> Body {
     let mass = inertia_ratio / h * volume;
     let about_span = mass * (a * a + b * b) / 3.0;
     let long = mass * SPAN * SPAN / 12.0;
-    // Along the span nothing moves in a plane fall; these make the tensors positive, no more.
-    let along = 0.01 * SPAN;
+    // Along the span nothing moves in a plane fall, and nothing turns out of the plane: so heavy that neither
+    // could limit the step.
+    let along = SPAN.powi(3);
     let turning = PI / 8.0 * (a * a - b * b).powi(2) * SPAN;
     Body {
         mass,
@@ -115,8 +116,8 @@ fn strip(inertia_ratio: f64, h: f64) -> Body {
             PI * b * b * SPAN,
             PI * a * a * SPAN,
             along,
-            SPAN.powi(3),
-            SPAN.powi(3),
+            SPAN.powi(5),
+            SPAN.powi(5),
             turning,
         ]),
         half_extents: [SPAN / 2.0, a, b],
