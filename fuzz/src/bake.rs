@@ -1,6 +1,6 @@
 //! Bake files.
 
-use langevin_rigid::{Bake, Fluid, Model, NoiseStream, Settings, State, Stepper, TurbulenceSource};
+use langevin_rigid::{Bake, Fluid, Model, Input, Settings, State, Stepper, TurbulenceSource};
 
 /// Bytes before the payload: the magic, the version (u32), the payload's length (u64), the fingerprint.
 const HEADER: usize = 8 + 4 + 8 + 32;
@@ -57,7 +57,7 @@ fn step(bake: &Bake) {
         let Ok(stepper) = stepper else { continue };
         let mut state = State::default();
         for _ in 0..3 {
-            if let Err(error) = stepper.step(&mut state, 1e-3, &NoiseStream::default()) {
+            if let Err(error) = stepper.step(&mut state, 1e-3, &Input::default()) {
                 assert!(!error.to_string().is_empty());
                 break;
             }

@@ -90,7 +90,7 @@ fn in_lanes(scene: &Scene, stepper: &Stepper) {
     };
     for _ in 0..BATCHED {
         let lanes = stepper.step_batch(&mut batch, TIME_STEP);
-        let one = stepper.step(&mut alone, TIME_STEP, &noise);
+        let one = stepper.step(&mut alone, TIME_STEP, &noise.into());
         assert_eq!(lanes.map_err(|error| error.first), one);
         // Zeros have a sign.
         assert_eq!(

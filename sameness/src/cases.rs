@@ -103,7 +103,7 @@ fn alone(stepper: &Stepper, dt: f64) -> Result<u64, StepError> {
     let (mut state, mut hash) = (release(1), Fnv::default());
     for _ in 0..STEPS / STRIDE {
         for _ in 0..STRIDE {
-            stepper.step(&mut state, dt, &noise)?;
+            stepper.step(&mut state, dt, &noise.into())?;
         }
         hash.state(&state);
     }

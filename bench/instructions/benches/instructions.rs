@@ -86,7 +86,7 @@ fn step(stepper: Stepper) -> State {
     let mut state = State::default();
     for _ in 0..STEPS {
         let noise = NoiseStream { seed: 1, body: 0 };
-        stepper.step(black_box(&mut state), 5e-3, &noise).unwrap();
+        stepper.step(black_box(&mut state), 5e-3, &noise.into()).unwrap();
     }
     state
 }

@@ -104,7 +104,7 @@ fn fall(body: &Body, fluid: &Fluid, model: Model, start: &State, seed: u64) -> R
     let (mut most, mut given) = (first, 0.0f64);
     for _ in 0..120 {
         stepper
-            .step(&mut state, 1.0 / 60.0, &noise)
+            .step(&mut state, 1.0 / 60.0, &noise.into())
             .map_err(|e| e.to_string())?;
         most = most.max(stepper.kinetic_energy(&state));
         given = given.max(weight * (state.position[1] - start.position[1]));

@@ -23,7 +23,7 @@ pub fn advance(
     if state.time < scene.carried - 0.5 * dt {
         carry(state, dt);
     } else {
-        stepper.step(state, dt, noise)?;
+        stepper.step(state, dt, &(*noise).into())?;
     }
     if let Some(tank) = &scene.tank {
         hold(tank, scene.release.position, state);

@@ -7,7 +7,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid::linalg::quat_from_rotation_vector;
-use langevin_rigid::{Body, Fluid, Model, NoiseStream, SeparatedFlow, Settings, State, Stepper};
+use langevin_rigid::{Body, Fluid, Model, Input, SeparatedFlow, Settings, State, Stepper};
 use langevin_rigid_formats::regimes::{Plate, terminal_speed};
 
 /// One fall: the thin axis' turn about z from level, unwrapped, and the velocity, sampled.
@@ -45,7 +45,7 @@ fn fall(body: &Body, viscosity: f64, tilt: f64) -> Fall {
     let mut turn = tilt.to_radians();
     for _ in 0..20_000 {
         stepper
-            .step(&mut state, dt, &NoiseStream::default())
+            .step(&mut state, dt, &Input::default())
             .unwrap();
         turn += state.angular_velocity[2] * dt;
         fall.turn.push(turn);

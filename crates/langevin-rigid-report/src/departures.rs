@@ -77,7 +77,7 @@ fn states(stepper: &Stepper, start: State, dt: f64, steps: u32, noise: NoiseStre
     let mut states = vec![start];
     let mut state = start;
     for _ in 0..steps {
-        if stepper.step(&mut state, dt, &noise).is_err() {
+        if stepper.step(&mut state, dt, &noise.into()).is_err() {
             break;
         }
         states.push(state);
@@ -164,7 +164,7 @@ fn units(
                 body: 0,
             };
             let mut state = setting.scene.release;
-            let lasted = (0..steps).all(|_| stepper.step(&mut state, dt, &noise).is_ok());
+            let lasted = (0..steps).all(|_| stepper.step(&mut state, dt, &noise.into()).is_ok());
             let key = format!("units.{model}.{name}");
             row.push(if lasted {
                 let speed = section.quote(format!("{key}.speed"), norm(state.velocity), 3);

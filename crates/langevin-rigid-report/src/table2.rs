@@ -120,7 +120,7 @@ fn time_steps(
         let started = Instant::now();
         for _ in 0..BATCH {
             if stepper
-                .step(&mut state, setting.scene.time_step, &noise)
+                .step(&mut state, setting.scene.time_step, &noise.into())
                 .is_err()
             {
                 state = setting.scene.release;

@@ -67,7 +67,7 @@ fn step(c: &mut Criterion) {
                 if state.step % 1000 == 0 {
                     state = State::default();
                 }
-                stepper.step(&mut state, 5e-3, &noise).unwrap();
+                stepper.step(&mut state, 5e-3, &noise.into()).unwrap();
                 state.position[1]
             });
         });

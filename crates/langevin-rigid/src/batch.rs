@@ -3,9 +3,10 @@
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::equations::{Equations, Noise, Stepped};
+use crate::input::{Forcing, Input};
 use crate::kirchhoff::Motion;
 use crate::lanes::{Doubles, Lanes, Singles};
-use crate::linalg::{each, join};
+use crate::linalg::{Vec3, each, join};
 use crate::noise::{Counter, NoiseStream};
 use crate::shape::{General, Shape, Symmetric};
 use crate::state::State;
@@ -25,7 +26,7 @@ impl Precision for f64 {}
 impl Precision for f32 {}
 
 mod sealed {
-    use super::{Pack, StepError, Stepper};
+    use super::{Forced, Pack, StepError, Stepper};
 
     /// What a precision must do.
     pub trait Sealed: Sized + 'static {
@@ -36,6 +37,7 @@ mod sealed {
             stepper: &Stepper,
             packs: &mut [Pack<Self>],
             dt: f64,
+            forced: &mut dyn FnMut(&Pack<Self>) -> Option<Forced<Self>>,
             stopped: &mut Vec<(u32, StepError)>,
         );
     }
@@ -58,14 +60,15 @@ macro_rules! precision {
                 stepper: &Stepper,
                 packs: &mut [Pack<Self>],
                 dt: f64,
+                forced: &mut dyn FnMut(&Pack<Self>) -> Option<Forced<Self>>,
                 stopped: &mut Vec<(u32, StepError)>,
             ) {
                 if stepper.symmetric.is_some() {
                     dispatch!(Level::new(), simd => step_packs::<_, $lanes<_>, Symmetric>(
-                        simd, stepper, packs, dt, stopped));
+                        simd, stepper, packs, dt, forced, stopped));
                 } else {
                     dispatch!(Level::new(), simd => step_packs::<_, $lanes<_>, General>(
-                        simd, stepper, packs, dt, stopped));
+                        simd, stepper, packs, dt, forced, stopped));
                 }
             }
         }
@@ -104,6 +107,17 @@ pub struct Pack<P = f64> {
     position: [[P; PACK]; 3],
     orientation: [[P; PACK]; 4],
     velocity: [[P; PACK]; 6],
+}
+
+/// What acts on the bodies of a pack over a step.
+pub struct Forced<P> {
+    inputs: [Input; PACK],
+    velocity: [[P; PACK]; 3],
+    /// Row by row; none where no body has one.
+    gradient: Option<[[[P; PACK]; 3]; 3]>,
+    acceleration: [[P; PACK]; 3],
+    force: [[P; PACK]; 3],
+    torque: [[P; PACK]; 3],
 }
 
 /// Bodies of a batch could not take a step.
@@ -224,21 +238,58 @@ impl<P: Precision> Pack<P> {
     /// One body after the other, in double precision.
     pub(crate) fn step_each(
         &mut self,
+        inputs: &mut dyn FnMut(u32, &State) -> Input,
         stopped: &mut Vec<(u32, StepError)>,
-        step: impl Fn(&mut State, &NoiseStream) -> Result<(), StepError>,
+        step: impl Fn(&mut State, &Input) -> Result<(), StepError>,
     ) {
         for place in 0..self.taken {
-            let noise = NoiseStream {
-                seed: self.seed,
-                body: self.bodies[place],
-            };
             let mut state = self.state(place);
-            match step(&mut state, &noise) {
+            let input = self.with_its_noise(place, inputs(self.bodies[place], &state));
+            match step(&mut state, &input) {
                 Ok(()) => self.set(place, &state),
-                Err(error) => stopped.push((noise.body, error)),
+                Err(error) => stopped.push((self.bodies[place], error)),
             }
         }
     }
+
+    fn with_its_noise(&self, place: usize, input: Input) -> Input {
+        let noise = NoiseStream {
+            seed: self.seed,
+            body: self.bodies[place],
+        };
+        Input { noise, ..input }
+    }
+
+    /// What acts on its bodies, as `inputs` tells; none where nothing does.
+    pub(crate) fn forced(&self, inputs: &mut dyn FnMut(u32, &State) -> Input) -> Option<Forced<P>> {
+        let mut each = [Input::default(); PACK];
+        for (place, input) in each.iter_mut().enumerate().take(self.taken) {
+            *input = inputs(self.bodies[place], &self.state(place));
+        }
+        if !each.iter().any(|input| Forcing::of(input).is_some()) {
+            return None;
+        }
+        let turns = each
+            .iter()
+            .any(|input| input.flow.gradient != [[0.0; 3]; 3]);
+        Some(Forced {
+            velocity: columns(&each, |input| input.flow.velocity),
+            gradient: turns
+                .then(|| std::array::from_fn(|i| columns(&each, |input| input.flow.gradient[i]))),
+            acceleration: columns(&each, |input| input.flow.acceleration),
+            force: columns(&each, |input| input.wrench.force),
+            torque: columns(&each, |input| input.wrench.torque),
+            inputs: each,
+        })
+    }
+}
+
+fn columns<P: Precision>(inputs: &[Input; PACK], of: impl Fn(&Input) -> Vec3) -> [[P; PACK]; 3] {
+    let mut columns = [[P::ZERO; PACK]; 3];
+    for (place, input) in inputs.iter().enumerate() {
+        put(&mut columns, place, &of(input));
+    }
+    columns
 }
 
 fn put<P: Precision, const N: usize>(to: &mut [[P; PACK]; N], place: usize, from: &[f64; N]) {
@@ -253,19 +304,26 @@ fn step_packs<S: Simd, L: Lanes<S>, F: Shape>(
     stepper: &Stepper,
     packs: &mut [Pack<L::Scalar>],
     dt: f64,
+    forced: &mut dyn FnMut(&Pack<L::Scalar>) -> Option<Forced<L::Scalar>>,
     stopped: &mut Vec<(u32, StepError)>,
 ) where
     L::Scalar: Precision,
 {
     let equations = stepper.equations.lift::<F, L>(L::splat(simd, 0.0));
     for pack in packs {
+        let forced = forced(pack);
         for first in (0..pack.taken).step_by(L::COUNT) {
-            step_lanes::<S, L, F>(simd, stepper, &equations, pack, first, dt, stopped);
+            let forced = forced.as_ref();
+            step_lanes::<S, L, F>(simd, stepper, &equations, pack, first, dt, forced, stopped);
         }
     }
 }
 
 /// Steps the bodies of `pack` from place `first` on, as many as there are lanes.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "the body of a loop, for processors of any width"
+)]
 #[inline(always)]
 fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
     simd: S,
@@ -274,6 +332,7 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
     pack: &mut Pack<L::Scalar>,
     first: usize,
     dt: f64,
+    forced: Option<&Forced<L::Scalar>>,
     stopped: &mut Vec<(u32, StepError)>,
 ) where
     L::Scalar: Precision,
@@ -293,11 +352,15 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
     };
 
     let time = L::load_doubles(simd, &pack.time[lanes.clone()]);
+    let forcing = forced.map(
+        #[inline(always)]
+        |forced| load_forcing(simd, forced, first),
+    );
     let Stepped {
         motion: after,
         sound,
         alone,
-    } = equations.step(&before, time, dt, &noise);
+    } = equations.step(&before, time, dt, &noise, forcing.as_ref());
 
     let good = L::bits(sound & !alone);
     let was = (good != (1 << L::COUNT) - 1).then(|| pack.clone());
@@ -312,21 +375,41 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
     let alone = L::bits(alone);
     for place in lanes.filter(|place| good & (1 << (place - first)) == 0) {
         let before = was.state(place);
-        let noise = NoiseStream {
-            seed: pack.seed,
-            body: pack.bodies[place],
-        };
+        let input = forced.map_or_else(Input::default, |forced| forced.inputs[place]);
+        let input = pack.with_its_noise(place, input);
         let mut state = before;
         let taken = match alone & (1 << (place - first)) {
-            0 => Err(stepper.why_not(&before, dt)),
-            _ => stepper.step(&mut state, dt, &noise),
+            0 => Err(stepper.why_not(&before, dt, &input)),
+            _ => stepper.step(&mut state, dt, &input),
         };
         pack.set(place, &state);
         if let Err(error) = taken
             && place < pack.taken
         {
-            stopped.push((noise.body, error));
+            stopped.push((input.noise.body, error));
         }
+    }
+}
+
+#[inline(always)]
+fn load_forcing<S: Simd, L: Lanes<S>>(
+    simd: S,
+    forced: &Forced<L::Scalar>,
+    first: usize,
+) -> Forcing<L> {
+    Forcing {
+        velocity: load_columns(simd, &forced.velocity, first),
+        gradient: match &forced.gradient {
+            Some([x, y, z]) => Some([
+                load_columns(simd, x, first),
+                load_columns(simd, y, first),
+                load_columns(simd, z, first),
+            ]),
+            None => None,
+        },
+        acceleration: load_columns(simd, &forced.acceleration, first),
+        force: load_columns(simd, &forced.force, first),
+        torque: load_columns(simd, &forced.torque, first),
     }
 }
 
@@ -396,7 +479,8 @@ mod tests {
         let mut stopped = Vec::new();
         for _ in 0..50 {
             let packs = batch.packs_mut();
-            step_packs::<S, Doubles<S>, General>(simd, &stepper, packs, 5e-3, &mut stopped);
+            let still = &mut |_: &Pack| None;
+            step_packs::<S, Doubles<S>, General>(simd, &stepper, packs, 5e-3, still, &mut stopped);
         }
         assert!(stopped.is_empty());
         batch

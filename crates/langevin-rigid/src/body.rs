@@ -75,6 +75,9 @@ pub struct Surface {
     pub potentials: Vec<[f64; 6]>,
 }
 
+/// Slices that a body has at most.
+pub const MOST_SLICES: usize = 8;
+
 /// What makes a body impossible.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -108,6 +111,9 @@ pub enum BodyError {
         "the body's surface is damaged: its triangles refer to vertices that it does not have, or potentials are missing; bake the body again"
     )]
     Surface,
+    /// The body has more slices than [`MOST_SLICES`].
+    #[error("the body has {0} slices and can have {MOST_SLICES} at most; bake the body again")]
+    TooManyParts(usize),
     /// The inertia has no inverse or is not symmetric.
     #[error(
         "the body's inertia is not a symmetric positive definite matrix; check its units (kg m^2) and its rows"
@@ -143,6 +149,9 @@ impl Body {
             return Err(BodyError::AddedMass);
         }
         self.separation.check()?;
+        if self.parts.len() > MOST_SLICES {
+            return Err(BodyError::TooManyParts(self.parts.len()));
+        }
         for (number, part) in self.parts.iter().enumerate() {
             part.check(number)?;
         }

@@ -1,9 +1,10 @@
 //! One step of the default integrator, for one body or for lanes of bodies: Algorithm 2.
 
-use crate::kirchhoff::{Kirchhoff, Motion};
+use crate::input::{Forcing, rotation_rate};
+use crate::kirchhoff::{Kirchhoff, Motion, Statics};
 use crate::langevin::Langevin;
 use crate::linalg::{
-    Quat, Vec3, Vec6, add, add_scaled, dot, each, join, lift, matrix_of, split, sub,
+    Quat, Vec3, Vec6, add, add_scaled, dot, each, join, lift, matrix_of, scale, split, sub,
     transposed_mat_vec,
 };
 use crate::modes::Modes;
@@ -11,7 +12,7 @@ use crate::noise::Counter;
 use crate::pace::{MOST_PARTS, Pace, Part};
 use crate::real::Real;
 use crate::separated::Closure;
-use crate::shape::{General, Shape};
+use crate::shape::{General, Shape, Tensor};
 
 /// Speed (m/s) and spin (rad/s) beyond which a run has diverged: no light body in a fluid comes near.
 pub const SPEED_LIMIT: f64 = 1e6;
@@ -26,14 +27,15 @@ pub(crate) struct Equations<F: Shape = General, R: Real = f64> {
     pub(crate) current: Option<Vec3<R>>,
 }
 
-/// What acts beyond Kirchhoff's terms.
+/// What acts beyond Kirchhoff's terms; inline, so that putting it into lanes allocates nothing.
 #[derive(Debug, Clone)]
+#[expect(clippy::large_enum_variant, reason = "one for each body or batch")]
 pub(crate) enum Loads<F: Shape = General, R: Real = f64> {
     None,
     /// The Langevin loads, by Strang's splitting.
-    Langevin(Box<Langevin<F, R>>),
+    Langevin(Langevin<F, R>),
     /// The closure for separated flow, and the turbulence that the body sheds as noise.
-    Separated(Box<Separated<F, R>>),
+    Separated(Separated<F, R>),
 }
 
 #[derive(Debug, Clone)]
@@ -66,11 +68,11 @@ impl Equations {
             kirchhoff: self.kirchhoff.lift(like),
             loads: match &self.loads {
                 Loads::None => Loads::None,
-                Loads::Langevin(langevin) => Loads::Langevin(Box::new(langevin.lift(like, total))),
-                Loads::Separated(separated) => Loads::Separated(Box::new(Separated {
+                Loads::Langevin(langevin) => Loads::Langevin(langevin.lift(like, total)),
+                Loads::Separated(separated) => Loads::Separated(Separated {
                     closure: separated.closure.lift(like),
                     noise: separated.noise.lift(like, total),
-                })),
+                }),
             },
             pace: self.pace.lift(like),
             current: self.current.map(|u| lift(like, &u)),
@@ -87,9 +89,11 @@ impl<F: Shape, R: Real> Equations<F, R> {
         time: R,
         dt: f64,
         noise: &Noise<R>,
+        forcing: Option<&Forcing<R>>,
     ) -> Stepped<R> {
-        let (motion, alone) = self.in_parts(self.relative_to_fluid(before), time, dt, noise);
-        let after = self.in_the_world(motion, time.of(dt));
+        let relative = self.relative_to_fluid(before, forcing);
+        let (motion, alone) = self.in_parts(relative, time, dt, noise, forcing);
+        let after = self.in_the_world(motion, time.of(dt), forcing);
         let timed = time.abs().less(time.of(f64::INFINITY));
         let sound = possible(&after) & is_unit(before.orientation) & timed;
         Stepped {
@@ -108,7 +112,13 @@ impl<F: Shape, R: Real> Equations<F, R> {
         start: R,
         dt: f64,
         noise: &Noise<R>,
+        forcing: Option<&Forcing<R>>,
     ) -> (Motion<R>, R::Mask) {
+        let statics = self.kirchhoff.statics(forcing);
+        let forced = forcing.map(
+            #[inline(always)]
+            |forcing| self.forced(forcing),
+        );
         let whole = start.of(dt);
         let least = start.of(dt / f64::from(MOST_PARTS));
         // What rounding leaves is no part.
@@ -117,12 +127,12 @@ impl<F: Shape, R: Real> Equations<F, R> {
         let mut alone = whole.less(whole);
         for number in 0..MOST_PARTS {
             let time = start + (whole - left);
-            let mut part = self.part(&motion.xi, time, left, least);
+            let mut part = self.part(&motion.xi, time, left, least, forced);
             if !R::ALONE {
                 alone = alone | part.stiff;
                 part.h = R::choose(alone, left, part.h);
             }
-            let next = self.take(&motion, time, &part, number, noise);
+            let next = self.take(&motion, time, &part, number, noise, &statics);
             if number == 0 && !R::any(end.less((left - part.h).abs())) {
                 return (next, alone);
             }
@@ -136,14 +146,26 @@ impl<F: Shape, R: Real> Equations<F, R> {
         (motion, alone)
     }
 
+    /// What [`Pace::part`] wants to know of the forcing.
+    #[inline(always)]
+    fn forced(&self, forcing: &Forcing<R>) -> [R; 3] {
+        let (faster, spun) = self.kirchhoff.gains(forcing);
+        let squares = |[x, y, z]: &[Vec3<R>; 3]| dot(*x, *x) + dot(*y, *y) + dot(*z, *z);
+        let gradient = match &forcing.gradient {
+            Some(gradient) => squares(gradient).sqrt(),
+            None => faster.of(0.0),
+        };
+        [faster, spun, gradient]
+    }
+
     /// The part of `left` that comes next, not under `least`.
     #[inline(always)]
-    fn part(&self, xi: &Vec6<R>, time: R, left: R, least: R) -> Part<R> {
+    fn part(&self, xi: &Vec6<R>, time: R, left: R, least: R, forced: Option<[R; 3]>) -> Part<R> {
         let left = match &self.loads {
             Loads::Langevin(langevin) => langevin.part(xi, time, left, least),
             Loads::None | Loads::Separated(_) => left,
         };
-        self.pace.part(xi, left, least)
+        self.pace.part(xi, left, least, forced)
     }
 
     #[inline(always)]
@@ -154,20 +176,22 @@ impl<F: Shape, R: Real> Equations<F, R> {
         part: &Part<R>,
         number: u32,
         noise: &Noise<R>,
+        statics: &Statics<R>,
     ) -> Motion<R> {
         match &self.loads {
             Loads::None => {
                 let mut motion = *before;
-                self.kirchhoff.step(&mut motion, part.h, |_| None);
+                self.kirchhoff
+                    .step(&mut motion, part.h, statics, |_, _| None);
                 motion
             }
             Loads::Langevin(langevin) => {
                 let normals = noise.counter.normals_of_part(noise.seed, number);
-                self.strang(langevin, before, time, part.h, &normals)
+                self.strang(langevin, before, time, part.h, &normals, statics)
             }
             Loads::Separated(separated) => {
                 let normals = noise.counter.normals_of_part(noise.seed, number).0;
-                self.separated(separated, before, time, part, &normals)
+                self.separated(separated, before, time, part, &normals, statics)
             }
         }
     }
@@ -181,20 +205,46 @@ impl<F: Shape, R: Real> Equations<F, R> {
         time: R,
         h: R,
         (first, second): &([R; 6], [R; 6]),
+        statics: &Statics<R>,
     ) -> Motion<R> {
         let half = h * h.of(0.5);
         let mut motion = *before;
-        let modes = langevin.modes.of_velocity(&motion.xi);
+        // Relaxation is towards the fluid, which may turn.
+        let fluid = self.fluid_spin(statics, motion.orientation);
+        let mut modes = langevin.modes.of_velocity(&motion.xi);
+        if let Some(fluid) = &fluid {
+            modes = langevin.modes.of_velocity(&minus(&motion.xi, fluid));
+        }
         let relaxed = langevin.step(&modes, time, half, first);
         motion.xi = langevin.modes.velocity(&relaxed);
-        let momentum = langevin.modes.momentum(&relaxed);
-        let (momentum, _) = self
-            .kirchhoff
-            .step_momentum(&mut motion, &momentum, h, |_| None);
-        let turned = langevin.modes.of_momentum(&momentum);
+        let mut momentum = langevin.modes.momentum(&relaxed);
+        if let Some(fluid) = &fluid {
+            motion.xi = plus(&motion.xi, fluid);
+            momentum = plus(&momentum, &self.kirchhoff.total.times(fluid));
+        }
+        let (momentum, _) =
+            self.kirchhoff
+                .step_momentum(&mut motion, &momentum, h, statics, |_, _| None);
+        let fluid = self.fluid_spin(statics, motion.orientation);
+        let mut turned = langevin.modes.of_momentum(&momentum);
+        if let Some(fluid) = &fluid {
+            let carried = self.kirchhoff.total.times(fluid);
+            turned = langevin.modes.of_momentum(&minus(&momentum, &carried));
+        }
         let relaxed = langevin.step(&turned, time + half, half, second);
         motion.xi = langevin.modes.velocity(&relaxed);
+        if let Some(fluid) = &fluid {
+            motion.xi = plus(&motion.xi, fluid);
+        }
         motion
+    }
+
+    /// The motion of the fluid as a spin of the body, body frame, where it turns.
+    #[inline(always)]
+    fn fluid_spin(&self, statics: &Statics<R>, orientation: Quat<R>) -> Option<Vec6<R>> {
+        let gradient = statics.gradient?;
+        let turning = in_the_body(orientation, rotation_rate(&gradient));
+        Some(join([turning[0].of(0.0); 3], turning))
     }
 
     #[inline(always)]
@@ -205,6 +255,7 @@ impl<F: Shape, R: Real> Equations<F, R> {
         time: R,
         part: &Part<R>,
         normals: &[R; 6],
+        statics: &Statics<R>,
     ) -> Motion<R> {
         let (h, closure) = (part.h, &separated.closure);
         let mut motion = *before;
@@ -213,8 +264,9 @@ impl<F: Shape, R: Real> Equations<F, R> {
             lost = self.kirchhoff.step(
                 &mut motion,
                 h,
+                statics,
                 #[inline(always)]
-                |xi| closure.load(xi),
+                |xi, gradient| closure.load(xi, gradient),
             );
         }
         if R::ALONE && R::any(part.stiff) {
@@ -222,8 +274,9 @@ impl<F: Shape, R: Real> Equations<F, R> {
             let taken = self.kirchhoff.step_resisted(
                 &mut resisted,
                 h,
+                statics,
                 #[inline(always)]
-                |xi| closure.resisted_load(xi),
+                |xi, gradient| closure.resisted_load(xi, gradient),
             );
             motion = chosen(part.stiff, &resisted, &motion);
             lost = R::choose(part.stiff, taken, lost);
@@ -239,26 +292,70 @@ impl<F: Shape, R: Real> Equations<F, R> {
         motion
     }
 
-    /// The motion in the inertial frame that the undisturbed fluid is at rest in.
+    /// The motion in the frame that moves with the undisturbed fluid.
     #[inline(always)]
-    pub(crate) fn relative_to_fluid(&self, motion: &Motion<R>) -> Motion<R> {
+    pub(crate) fn relative_to_fluid(
+        &self,
+        motion: &Motion<R>,
+        forcing: Option<&Forcing<R>>,
+    ) -> Motion<R> {
         let mut relative = *motion;
-        if let Some(current) = self.current {
+        if let Some(velocity) = self.fluid_velocity(forcing) {
             let (v, omega) = split(&motion.xi);
-            relative.xi = join(sub(v, in_the_body(motion.orientation, current)), omega);
+            relative.xi = join(sub(v, in_the_body(motion.orientation, velocity)), omega);
         }
         relative
     }
 
+    /// Back into the world after `h`, over which the fluid went on and became faster.
     #[inline(always)]
-    pub(crate) fn in_the_world(&self, mut motion: Motion<R>, h: R) -> Motion<R> {
-        if let Some(current) = self.current {
-            let (v, omega) = split(&motion.xi);
-            motion.xi = join(add(v, in_the_body(motion.orientation, current)), omega);
-            motion.position = add_scaled(motion.position, h, current);
+    pub(crate) fn in_the_world(
+        &self,
+        mut motion: Motion<R>,
+        h: R,
+        forcing: Option<&Forcing<R>>,
+    ) -> Motion<R> {
+        let Some(mut velocity) = self.fluid_velocity(forcing) else {
+            return motion;
+        };
+        motion.position = add_scaled(motion.position, h, velocity);
+        if let Some(forcing) = forcing {
+            let gained = scale(h, forcing.acceleration);
+            motion.position = add_scaled(motion.position, h * h.of(0.5), gained);
+            velocity = add(velocity, gained);
         }
+        let (v, omega) = split(&motion.xi);
+        motion.xi = join(add(v, in_the_body(motion.orientation, velocity)), omega);
         motion
     }
+
+    /// Velocity of the undisturbed fluid at the body (m/s), world frame; none where it is at rest.
+    #[inline(always)]
+    fn fluid_velocity(&self, forcing: Option<&Forcing<R>>) -> Option<Vec3<R>> {
+        match (self.current, forcing) {
+            (Some(current), Some(forcing)) => Some(add(current, forcing.velocity)),
+            (None, Some(forcing)) => Some(forcing.velocity),
+            (current, None) => current,
+        }
+    }
+}
+
+#[inline(always)]
+fn plus<R: Real>(a: &Vec6<R>, b: &Vec6<R>) -> Vec6<R> {
+    each(
+        a[0],
+        #[inline(always)]
+        |i| a[i] + b[i],
+    )
+}
+
+#[inline(always)]
+fn minus<R: Real>(a: &Vec6<R>, b: &Vec6<R>) -> Vec6<R> {
+    each(
+        a[0],
+        #[inline(always)]
+        |i| a[i] - b[i],
+    )
 }
 
 /// Whether a body can move so: finite, and within [`SPEED_LIMIT`].

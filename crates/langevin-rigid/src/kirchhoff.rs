@@ -13,10 +13,11 @@
 
 use crate::body::Body;
 use crate::fluid::Fluid;
+use crate::input::Forcing;
 use crate::linalg::{
     Mat3, Mat6, Quat, Vec3, Vec6, add, add_scaled, cross, dot, dot6, each, eigen_symmetric,
-    invert_spd, join, lift, mat_vec, matrix_of, mul, norm, quat_mul, quat_normalize, rotate_back,
-    scale, solve_spd, split, sub, transposed_mat_vec, turn,
+    invert_spd, join, lift, mat_vec, matrix_of, mul, norm, quat_mul, quat_normalize, scale,
+    solve_spd, split, sub, transposed_mat_vec, turn,
 };
 use crate::real::Real;
 use crate::shape::{General, Shape, Tensor};
@@ -37,24 +38,54 @@ pub(crate) struct Kirchhoff<F: Shape = General, R: Real = f64> {
     pub(crate) total: F::Tensor<R>,
     pub(crate) inverse: F::Tensor<R>,
     /// Gravity less buoyancy, world frame (N), Eq. (5).
-    weight: Vec3<R>,
+    pub(crate) weight: Vec3<R>,
     /// Buoyancy, world frame (N), acting at `centre_of_buoyancy`.
-    buoyancy: Vec3<R>,
-    centre_of_buoyancy: Vec3<R>,
-    /// Largest eigenvalue of the linear block of T^-1 (1/kg).
+    pub(crate) buoyancy: Vec3<R>,
+    pub(crate) centre_of_buoyancy: Vec3<R>,
+    /// Mass of the displaced fluid, and that of the body less it (kg).
+    displaced: R,
+    net_mass: R,
+    /// Largest eigenvalues of the linear (1/kg) and the angular (1/(kg m^2)) block of T^-1.
     mobility: R,
+    rotational_mobility: R,
     /// Bound on how fast weight and buoyancy change the root of twice the energy (kg^(1/2) m/s^2).
     push: R,
 }
 
+/// What acts on a body whatever its motion, over one step. World frame; the velocity of the fluid is in none of
+/// it, as the equations are in the frame that moves with the fluid.
+#[derive(Clone, Copy)]
+pub(crate) struct Statics<R = f64> {
+    /// Gravity less buoyancy, with the fluid's acceleration taken off gravity, and the force from outside (N).
+    weight: Vec3<R>,
+    /// Buoyancy (N), with the same gravity.
+    buoyancy: Vec3<R>,
+    /// Torque from outside (N m).
+    torque: Option<Vec3<R>>,
+    /// Gradient of the fluid's velocity (1/s).
+    pub(crate) gradient: Option<Mat3<R>>,
+    /// Bound on how fast all this changes the root of twice the energy (kg^(1/2) m/s^2).
+    push: R,
+}
+
+/// A load that depends on the motion, and the power with which the fluid's own rotation and strain feed the body
+/// through it (W).
+#[derive(Clone, Copy)]
+pub(crate) struct Load<R = f64> {
+    pub(crate) force: Vec6<R>,
+    pub(crate) fed: R,
+}
+
 /// What changes over one step, in the body frame of its start: rotation vector and displacement since
-/// then, the linear impulse, and the angular impulse about the place where the centre of mass was.
+/// then, the linear impulse, the angular impulse about the place where the centre of mass was, and the work of the
+/// torque from outside and of the fluid's own rotation and strain.
 #[derive(Clone, Copy)]
 struct Increment<R> {
     theta: Vec3<R>,
     displacement: Vec3<R>,
     linear: Vec3<R>,
     angular: Vec3<R>,
+    work: R,
 }
 
 impl<R: Real> Increment<R> {
@@ -67,6 +98,7 @@ impl<R: Real> Increment<R> {
             displacement: scale(h, rate.displacement),
             linear: add_scaled(linear, h, rate.linear),
             angular: add_scaled(angular, h, rate.angular),
+            work: h * rate.work,
         }
     }
 
@@ -77,14 +109,9 @@ impl<R: Real> Increment<R> {
             displacement: add_scaled(self.displacement, h, rate.displacement),
             linear: add_scaled(self.linear, h, rate.linear),
             angular: add_scaled(self.angular, h, rate.angular),
+            work: self.work + h * rate.work,
         }
     }
-}
-
-/// The static loads in the body frame of a step's start.
-struct StaticLoads<R> {
-    weight: Vec3<R>,
-    buoyancy: Vec3<R>,
 }
 
 impl Kirchhoff {
@@ -101,14 +128,18 @@ impl Kirchhoff {
             eigen_symmetric(&block).0[2]
         };
         let torque = norm(buoyancy) * norm(body.centre_of_buoyancy);
+        let (linear, angular) = (mobility(0), mobility(3));
         Some(Self {
             total,
             inverse,
             weight,
             buoyancy,
             centre_of_buoyancy: body.centre_of_buoyancy,
-            mobility: mobility(0),
-            push: norm(weight) * mobility(0).sqrt() + torque * mobility(3).sqrt(),
+            displaced,
+            net_mass: body.mass - displaced,
+            mobility: linear,
+            rotational_mobility: angular,
+            push: norm(weight) * linear.sqrt() + torque * angular.sqrt(),
         })
     }
 
@@ -120,7 +151,10 @@ impl Kirchhoff {
             weight: lift(like, &self.weight),
             buoyancy: lift(like, &self.buoyancy),
             centre_of_buoyancy: lift(like, &self.centre_of_buoyancy),
+            displaced: like.of(self.displaced),
+            net_mass: like.of(self.net_mass),
             mobility: like.of(self.mobility),
+            rotational_mobility: like.of(self.rotational_mobility),
             push: like.of(self.push),
         }
     }
@@ -134,21 +168,72 @@ impl Kirchhoff {
     pub(crate) fn energy(&self, xi: &Vec6) -> f64 {
         0.5 * dot6(xi, &mul(&self.total, xi))
     }
-
-    /// Generalized force in the body frame: gravity, buoyancy and its torque, Eqs. (5) and (6).
-    ///
-    /// The torque is r x R^T (-rho_f V g): a body whose centre of buoyancy lies above its centre of
-    /// mass is stable. Eq. (6) is printed with the opposite sign.
-    pub(crate) fn static_load(&self, orientation: Quat) -> Vec6 {
-        let buoyancy = rotate_back(orientation, self.buoyancy);
-        join(
-            rotate_back(orientation, self.weight),
-            cross(self.centre_of_buoyancy, buoyancy),
-        )
-    }
 }
 
 impl<F: Shape, R: Real> Kirchhoff<F, R> {
+    /// What acts whatever the motion, under `forcing`.
+    ///
+    /// In the frame that accelerates with the fluid by a, gravity is g - a: the body is pushed by its displaced mass
+    /// times a as by a buoyancy, and falls behind by its own mass. Added to the momentum T a that the frame itself
+    /// gains this is the force (rho V + A) a.
+    #[inline(always)]
+    pub(crate) fn statics(&self, forcing: Option<&Forcing<R>>) -> Statics<R> {
+        let Some(forcing) = forcing else {
+            return Statics {
+                weight: self.weight,
+                buoyancy: self.buoyancy,
+                torque: None,
+                gradient: None,
+                push: self.push,
+            };
+        };
+        let acceleration = norm(forcing.acceleration);
+        let (force, torque) = (norm(forcing.force), norm(forcing.torque));
+        let arm = norm(self.centre_of_buoyancy);
+        let pushed = force + self.net_mass.abs() * acceleration;
+        let turned = torque + self.displaced * acceleration * arm;
+        Statics {
+            weight: add(
+                add_scaled(self.weight, -self.net_mass, forcing.acceleration),
+                forcing.force,
+            ),
+            buoyancy: add_scaled(self.buoyancy, self.displaced, forcing.acceleration),
+            torque: Some(forcing.torque),
+            gradient: forcing.gradient,
+            push: self.push
+                + pushed * self.mobility.sqrt()
+                + turned * self.rotational_mobility.sqrt(),
+        }
+    }
+
+    /// What the forcing adds to speed (m/s) and spin (rad/s) in a second, at most.
+    #[inline(always)]
+    pub(crate) fn gains(&self, forcing: &Forcing<R>) -> (R, R) {
+        let acceleration = norm(forcing.acceleration);
+        let arm = norm(self.centre_of_buoyancy);
+        let force = norm(forcing.force) + self.net_mass.abs() * acceleration;
+        let torque = norm(forcing.torque) + self.displaced * acceleration * arm;
+        (force * self.mobility, torque * self.rotational_mobility)
+    }
+
+    /// Generalized force of `statics` in the body frame, which `into_body` turns vectors into: gravity, buoyancy and its torque, Eqs. (5) and (6), and
+    /// what acts from outside.
+    ///
+    /// The torque is r x R^T (-rho_f V g): a body whose centre of buoyancy lies above its centre of
+    /// mass is stable. Eq. (6) is printed with the opposite sign.
+    #[inline(always)]
+    pub(crate) fn static_load(
+        &self,
+        statics: &Statics<R>,
+        into_body: impl Fn(Vec3<R>) -> Vec3<R>,
+    ) -> Vec6<R> {
+        let mut torque = cross(self.centre_of_buoyancy, into_body(statics.buoyancy));
+        if let Some(outside) = statics.torque {
+            torque = add(torque, into_body(outside));
+        }
+        join(into_body(statics.weight), torque)
+    }
+
     /// The rate of the momenta (p, l) in the body frame from Kirchhoff's terms alone.
     #[inline(always)]
     pub(crate) fn momentum_rate(&self, xi: &Vec6<R>) -> Vec6<R> {
@@ -167,39 +252,54 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         &self,
         motion: &mut Motion<R>,
         h: R,
-        load: impl Fn(&Vec6<R>) -> Option<(Vec6<R>, Mat6<R>)>,
+        statics: &Statics<R>,
+        load: impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<(Load<R>, Mat6<R>)>,
     ) -> R {
         let start = *motion;
         let (momentum, total) = (self.total.times(&start.xi), self.total.matrix());
-        // The velocity after `h` with the loads and resistances of `from`.
-        let implicit = |h: R, from: &Motion<R>| -> Vec6<R> {
+        // The velocity after `h` with the loads and resistances of `from`, and the power that these feed.
+        let implicit = |h: R, from: &Motion<R>| -> (Vec6<R>, R) {
             let mut rate = self.momentum_rate(&from.xi);
-            let still = self.static_load_at(&matrix_of(from.orientation));
-            let mut system = total;
+            let matrix = matrix_of(from.orientation);
+            let still = self.static_load(
+                statics,
+                #[inline(always)]
+                |a| transposed_mat_vec(&matrix, a),
+            );
+            let (mut system, mut fed) = (total, h.of(0.0));
             for i in 0..6 {
                 rate[i] = momentum[i] + h * (rate[i] + still[i]);
             }
-            if let Some((moving, resisted)) = load(&from.xi) {
+            if let Some(torque) = statics.torque {
+                fed = dot(transposed_mat_vec(&matrix, torque), split(&from.xi).1);
+            }
+            let gradient = statics.gradient.map(
+                #[inline(always)]
+                |g| seen_from(&matrix, &g),
+            );
+            if let Some((moving, resisted)) = load(&from.xi, gradient.as_ref()) {
+                fed = fed + moving.fed;
                 for i in 0..6 {
-                    rate[i] = rate[i] + h * moving[i];
+                    rate[i] = rate[i] + h * moving.force[i];
                     for j in 0..6 {
                         system[i][j] = system[i][j] + h * resisted[i][j];
                     }
                 }
             }
-            solve_spd(&system, &rate)
+            (solve_spd(&system, &rate), fed)
         };
         let half = h * h.of(0.5);
         let mut middle = start;
-        middle.xi = implicit(half, &start);
+        (middle.xi, _) = implicit(half, &start);
         let (v, omega) = split(&middle.xi);
         middle.orientation = turned(start.orientation, half, omega);
-        motion.xi = implicit(h, &middle);
+        let fed;
+        (motion.xi, fed) = implicit(h, &middle);
         motion.orientation = turned(start.orientation, h, omega);
         let displacement = mat_vec(&matrix_of(middle.orientation), v);
         motion.position = add_scaled(start.position, h, displacement);
         let after = self.total.times(&motion.xi);
-        let (share, lost) = self.passive(&start, &momentum, motion, &after, h);
+        let (share, lost) = self.passive(&start, &momentum, motion, &after, h, statics, h * fed);
         motion.xi = each(
             h,
             #[inline(always)]
@@ -209,24 +309,28 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
     }
 
     /// The share of the momenta `after` a step of `h` from the momenta `before` with which the body has no
-    /// more energy than it had and weight and buoyancy gave it, and the energy that the loads took from it
-    /// (J). Loads never feed the body, and a step that is too long must not do so for them. `end` is the
-    /// motion after the step; where it went further than any body with that energy can, it goes as far as
-    /// it can.
+    /// more energy than it had and `statics` gave it, and the energy that the loads took from it
+    /// (J). Loads never feed the body beyond the work `fed` of a torque from outside and of fluid that turns, and a step
+    /// that is too long must not do so for them. `end` is the motion after the step; where it went further than any
+    /// body with that energy can, it goes as far as it can.
+    #[expect(clippy::too_many_arguments, reason = "a step, from both ends")]
     #[inline(always)]
-    pub(crate) fn passive(
+    fn passive(
         &self,
         start: &Motion<R>,
         before: &Vec6<R>,
         end: &mut Motion<R>,
         after: &Vec6<R>,
         h: R,
+        statics: &Statics<R>,
+        fed: R,
     ) -> (R, R) {
         let (zero, one) = (h.of(0.0), h.of(1.0));
         // Twice the energies.
         let had = dot6(before, &self.inverse.times(before));
         let has = dot6(after, &self.inverse.times(after));
-        let most = had.max(zero).sqrt() + self.push * h;
+        let given = (fed + fed).max(zero);
+        let most = (had.max(zero) + given).sqrt() + statics.push * h;
         let furthest = most * h * self.mobility.sqrt();
         let displacement = sub(end.position, start.position);
         let distance = norm(displacement);
@@ -237,11 +341,11 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
             end.position[i] = R::choose(too_far, reached, end.position[i]);
         }
 
-        let mut work = share * dot(self.weight, displacement);
+        let mut work = share * dot(statics.weight, displacement) + fed;
         if !F::CENTRED {
             let arm = |orientation| mat_vec(&matrix_of(orientation), self.centre_of_buoyancy);
             let moved = sub(arm(end.orientation), arm(start.orientation));
-            work = work + dot(self.buoyancy, moved);
+            work = work + dot(statics.buoyancy, moved);
         }
         let allowed = (had + (work + work)).max(zero).min(most * most);
         // Rounding, and what a sound step errs by.
@@ -252,29 +356,21 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         (share, lost)
     }
 
-    /// Weight and buoyancy in the frame of a body whose orientation is `matrix`.
-    #[inline(always)]
-    fn static_load_at(&self, matrix: &Mat3<R>) -> Vec6<R> {
-        let buoyancy = transposed_mat_vec(matrix, self.buoyancy);
-        join(
-            transposed_mat_vec(matrix, self.weight),
-            cross(self.centre_of_buoyancy, buoyancy),
-        )
-    }
-
     /// One step by the fourth-order Runge-Kutta-Munthe-Kaas scheme on the rotation group.
     ///
     /// `load` is a further generalized force about the centre of mass, body frame, from the velocity
-    /// relative to the fluid, if there is one. Returns the energy that it took from the body (J).
+    /// relative to the fluid and the gradient of the fluid's velocity, body frame, if there is one. Returns the energy
+    /// that it took from the body (J).
     #[inline(always)]
     pub(crate) fn step(
         &self,
         motion: &mut Motion<R>,
         h: R,
-        load: impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
+        statics: &Statics<R>,
+        load: impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<Load<R>>,
     ) -> R {
         let momentum = self.total.times(&motion.xi);
-        let (momentum, lost) = self.step_momentum(motion, &momentum, h, load);
+        let (momentum, lost) = self.step_momentum(motion, &momentum, h, statics, load);
         motion.xi = self.velocity(&momentum);
         lost
     }
@@ -306,13 +402,11 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         motion: &mut Motion<R>,
         momentum: &Vec6<R>,
         h: R,
-        load: impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
+        statics: &Statics<R>,
+        load: impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<Load<R>>,
     ) -> (Vec6<R>, R) {
         let start = matrix_of(motion.orientation);
-        let loads = StaticLoads {
-            weight: transposed_mat_vec(&start, self.weight),
-            buoyancy: transposed_mat_vec(&start, self.buoyancy),
-        };
+        let loads = statics.seen_from(&start);
         let (half, third, sixth) = (h * h.of(0.5), h * h.of(1.0 / 3.0), h * h.of(1.0 / 6.0));
         let k1 = self.first_rate(&motion.xi, &loads, &load);
         let k2 = self.rate(&Increment::new(momentum, half, &k1), &loads, &load);
@@ -328,7 +422,7 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
         motion.orientation = quat_normalize(quat_mul(motion.orientation, turned));
         motion.position = add(motion.position, mat_vec(&start, end.displacement));
         let after = momentum_after(&matrix_of(turned), &end);
-        let (share, lost) = self.passive(&before, momentum, motion, &after, h);
+        let (share, lost) = self.passive(&before, momentum, motion, &after, h, statics, end.work);
         let after = each(
             h,
             #[inline(always)]
@@ -342,25 +436,32 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
     fn first_rate(
         &self,
         xi: &Vec6<R>,
-        loads: &StaticLoads<R>,
-        load: &impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
+        statics: &Statics<R>,
+        load: &impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<Load<R>>,
     ) -> Increment<R> {
         let (v, omega) = split(xi);
-        let mut linear = loads.weight;
+        let mut linear = statics.weight;
         let mut angular = [omega[0].of(0.0); 3];
+        let mut work = omega[0].of(0.0);
         if !F::CENTRED {
-            angular = cross(self.centre_of_buoyancy, loads.buoyancy);
+            angular = cross(self.centre_of_buoyancy, statics.buoyancy);
         }
-        if let Some(load) = load(xi) {
-            let (force, couple) = split(&load);
+        if let Some(torque) = statics.torque {
+            angular = add(angular, torque);
+            work = dot(torque, omega);
+        }
+        if let Some(load) = load(xi, statics.gradient.as_ref()) {
+            let (force, couple) = split(&load.force);
             linear = add(linear, force);
             angular = add(angular, couple);
+            work = work + load.fed;
         }
         Increment {
             theta: omega,
             displacement: v,
             linear,
             angular,
+            work,
         }
     }
 
@@ -368,32 +469,73 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
     fn rate(
         &self,
         y: &Increment<R>,
-        loads: &StaticLoads<R>,
-        load: &impl Fn(&Vec6<R>) -> Option<Vec6<R>>,
+        statics: &Statics<R>,
+        load: &impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<Load<R>>,
     ) -> Increment<R> {
         let turned = matrix_of(turn(y.theta));
         let xi = self.inverse.times(&momentum_after(&turned, y));
         let (v, omega) = split(&xi);
-        let mut linear = loads.weight;
+        let mut linear = statics.weight;
         let mut angular = cross(y.displacement, linear);
+        let mut work = y.work.of(0.0);
         if !F::CENTRED {
             let arm = mat_vec(&turned, self.centre_of_buoyancy);
-            angular = add(angular, cross(arm, loads.buoyancy));
+            angular = add(angular, cross(arm, statics.buoyancy));
         }
-        if let Some(load) = load(&xi) {
-            let (force, couple) = split(&load);
+        if let Some(torque) = statics.torque {
+            angular = add(angular, torque);
+            work = dot(torque, mat_vec(&turned, omega));
+        }
+        let gradient = statics.gradient.map(
+            #[inline(always)]
+            |g| seen_from(&turned, &g),
+        );
+        if let Some(load) = load(&xi, gradient.as_ref()) {
+            let (force, couple) = split(&load.force);
             let force = mat_vec(&turned, force);
             linear = add(linear, force);
             let couple = add(mat_vec(&turned, couple), cross(y.displacement, force));
             angular = add(angular, couple);
+            work = work + load.fed;
         }
         Increment {
             theta: rotation_vector_rate(y.theta, omega),
             displacement: mat_vec(&turned, v),
             linear,
             angular,
+            work,
         }
     }
+}
+
+impl<R: Real> Statics<R> {
+    /// The same in the frame whose axes are the columns of `matrix`.
+    #[inline(always)]
+    fn seen_from(&self, matrix: &Mat3<R>) -> Self {
+        Self {
+            weight: transposed_mat_vec(matrix, self.weight),
+            buoyancy: transposed_mat_vec(matrix, self.buoyancy),
+            torque: self.torque.map(
+                #[inline(always)]
+                |torque| transposed_mat_vec(matrix, torque),
+            ),
+            gradient: self.gradient.map(
+                #[inline(always)]
+                |gradient| seen_from(matrix, &gradient),
+            ),
+            push: self.push,
+        }
+    }
+}
+
+/// R^T G R: a tensor in the frame whose axes are the columns of `matrix`.
+#[inline(always)]
+fn seen_from<R: Real>(matrix: &Mat3<R>, tensor: &Mat3<R>) -> Mat3<R> {
+    let row = |i: usize| transposed_mat_vec(matrix, tensor[i]);
+    let half = [row(0), row(1), row(2)];
+    let column = |j: usize| transposed_mat_vec(matrix, [half[0][j], half[1][j], half[2][j]]);
+    let [x, y, z] = [column(0), column(1), column(2)];
+    [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]
 }
 
 /// The orientation after a turn at `omega` (body frame) for `h`.

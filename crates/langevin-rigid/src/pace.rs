@@ -93,11 +93,16 @@ impl Pace {
 }
 
 impl<R: Real> Pace<R> {
-    /// The part of `left` (s) that comes next, not under `least`.
+    /// The part of `left` (s) that comes next, not under `least`; `forced` is what forcing adds to speed and spin in a
+    /// second, and the size of the fluid's own gradient.
     #[inline(always)]
-    pub(crate) fn part(&self, xi: &Vec6<R>, left: R, least: R) -> Part<R> {
+    pub(crate) fn part(&self, xi: &Vec6<R>, left: R, least: R, forced: Option<[R; 3]>) -> Part<R> {
         let (v, omega) = split(xi);
-        let (speed, spin) = (norm(v) + self.gain * left, norm(omega));
+        let (mut speed, mut spin) = (norm(v) + self.gain * left, norm(omega));
+        if let Some([faster, spun, gradient]) = forced {
+            speed = speed + faster * left;
+            spin = spin + (spun * left + gradient);
+        }
         let (free, resisted) = (self.free.at(speed, spin), self.resisted.at(speed, spin));
         let explicit = left.of(EXPLICIT);
         let long = explicit.less(left * free.max(resisted));
@@ -201,7 +206,10 @@ impl Probe<'_> {
         let Some(closure) = self.closure else {
             return [[0.0; 6]; 6];
         };
-        let (still, moving) = (closure.resistance(&[0.0; 6]), closure.resistance(xi));
+        let (still, moving) = (
+            closure.resistance(&[0.0; 6], None),
+            closure.resistance(xi, None),
+        );
         let twice =
             std::array::from_fn(|i| std::array::from_fn(|j| 2.0 * moving[i][j] - still[i][j]));
         product(&self.kirchhoff.inverse, &twice)
@@ -225,8 +233,11 @@ impl Probe<'_> {
 
     fn acceleration(&self, xi: &Vec6) -> Vec6 {
         let mut rate = self.kirchhoff.momentum_rate(xi);
-        if let Some((load, _)) = self.closure.and_then(|closure| closure.resisted_load(xi)) {
-            rate = std::array::from_fn(|i| rate[i] + load[i]);
+        if let Some((load, _)) = self
+            .closure
+            .and_then(|closure| closure.resisted_load(xi, None))
+        {
+            rate = std::array::from_fn(|i| rate[i] + load.force[i]);
         }
         mul(&self.kirchhoff.inverse, &rate)
     }

@@ -37,7 +37,9 @@ impl UnitSystem {
 /// The printed equations of one body, in their own units.
 #[derive(Debug, Clone)]
 pub(crate) struct Published {
+    /// Units of length (m) and force (N).
     length: f64,
+    force: f64,
     mass: Mat3,
     inverse_mass: Mat3,
     inertia: Mat3,
@@ -74,6 +76,7 @@ impl Published {
         let force_unit = mass_unit * length;
         Some(Self {
             length,
+            force: force_unit,
             inverse_mass: invert_spd(&mass)?,
             inverse_inertia: invert_spd(&inertia)?,
             mass,
@@ -87,9 +90,29 @@ impl Published {
     }
 
     /// One step: Runge-Kutta for the deterministic part, then the noise of Euler and Maruyama.
-    pub(crate) fn step(&self, motion: &mut Motion, time: f64, h: f64, normals: &[f64; 6]) {
+    ///
+    /// `outside` is the generalized force (body frame, SI) of what the printed equations do not know.
+    pub(crate) fn step(
+        &self,
+        motion: &mut Motion,
+        time: f64,
+        h: f64,
+        normals: &[f64; 6],
+        outside: impl Fn(&Motion) -> Vec6,
+    ) {
         let start = motion.xi;
-        runge_kutta::step(motion, time, h, |m, t| self.acceleration(m, t));
+        runge_kutta::step(motion, time, h, |m, t| {
+            let printed = self.acceleration(m, t);
+            let (force, torque) = split(&outside(m));
+            let further = self.to_si(
+                mat_vec(&self.inverse_mass, scale(1.0 / self.force, force)),
+                mat_vec(
+                    &self.inverse_inertia,
+                    scale(1.0 / (self.force * self.length), torque),
+                ),
+            );
+            std::array::from_fn(|i| printed[i] + further[i])
+        });
         let beta = self.coefficients(&start, time).beta * h.sqrt();
         let (first, second) = split(&normals.map(|z| beta * z));
         let kick = self.to_si(

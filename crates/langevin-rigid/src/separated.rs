@@ -8,11 +8,15 @@
 //! a tensor. Everything is written with the structure of the added-mass tensor, so it holds for
 //! bodies of any shape and needs no panels.
 
-use crate::body::{Body, Part, shift_added_mass};
+use arrayvec::ArrayVec;
+
+use crate::body::{Body, MOST_SLICES, Part, shift_added_mass};
 use crate::elementary::exp;
+use crate::input::rotation_rate;
+use crate::kirchhoff::Load;
 use crate::linalg::{
     Mat3, Mat6, Vec3, Vec6, add, add_scaled, cholesky, cross, dot, each, eigen_symmetric, join,
-    lift, mul, norm, scale, split, sub,
+    lift, mat_vec, mul, norm, scale, split, sub,
 };
 use crate::real::Real;
 use crate::shape::{Block, General, Shape};
@@ -61,7 +65,8 @@ const SLENDER: f64 = 0.25;
 #[derive(Debug, Clone)]
 pub(crate) struct Closure<F: Shape = General, R: Real = f64> {
     constants: SeparatedFlow,
-    parts: Vec<PartClosure<F, R>>,
+    /// Slices; inline, so that putting them into lanes allocates nothing.
+    parts: ArrayVec<PartClosure<F, R>, MOST_SLICES>,
     /// Hydrodynamic centre: the centroid of the volume, from the centre of mass (m).
     centre: Vec3<R>,
     /// Stokes resistance to translation and rotation about the centroid (kg/s, kg m^2/s).
@@ -85,7 +90,7 @@ impl Closure {
         Some(Self {
             constants,
             parts: if body.parts.is_empty() {
-                vec![part(&whole(body))]
+                [part(&whole(body))].into_iter().collect()
             } else {
                 body.parts.iter().map(part).collect()
             },
@@ -112,41 +117,44 @@ impl Closure {
 
 impl<F: Shape, R: Real> Closure<F, R> {
     /// The closure's generalized force about the centre of mass, body frame, from the velocity
-    /// relative to the fluid; none where the flow stays attached.
+    /// relative to the fluid and the gradient of the fluid's velocity, body frame; none where the flow stays attached.
     ///
-    /// It never feeds energy: its power is negative or zero in every state.
+    /// It never feeds energy: its power on the motion relative to the fluid is negative or zero in every state.
     #[inline(always)]
-    pub(crate) fn load(&self, xi: &Vec6<R>) -> Option<Vec6<R>> {
+    pub(crate) fn load(&self, xi: &Vec6<R>, gradient: Option<&Mat3<R>>) -> Option<Load<R>> {
         if self.constants.attached {
             return None;
         }
-        let (v, omega) = split(xi);
-        let spin = norm(omega);
-        let mut sum = self.friction(v, omega);
+        let relative = Relative::new(xi, gradient);
+        let spin = norm(relative.omega);
+        let (mut sum, mut fed) = self.friction(&relative);
         for part in &self.parts {
-            let at_part = add(v, cross(omega, part.centre));
-            sum.add(
-                part.centre,
-                &part.loads(&self.constants, at_part, omega, spin),
-            );
+            let at_part = relative.at(part.centre);
+            let loads = part.loads(&self.constants, at_part, relative.omega, spin);
+            fed = fed + relative.fed(part.centre, loads.force, loads.torque);
+            sum.add(part.centre, &loads);
         }
+        let (v, omega) = split(xi);
         // The rotational lift does no work, so this is the power of the resistances.
-        let power = dot(sum.force, v) + dot(sum.torque, omega);
-        let separation = limited(sum.lost, omega, power);
-        Some(join(sum.force, add(sum.torque, separation)))
+        let power = dot(sum.force, v) + dot(sum.torque, omega) - fed;
+        let separation = limited(sum.lost, relative.omega, power);
+        Some(Load {
+            force: join(sum.force, add(sum.torque, separation)),
+            fed: fed + dot(separation, relative.turning),
+        })
     }
 
     /// The resistances D of [`Closure::load`], which contains them as -D xi: Stokes resistance, pressure
     /// drag, normal force and rotational damping, about the centre of mass. Symmetric and positive.
     #[inline(always)]
-    pub(crate) fn resistance(&self, xi: &Vec6<R>) -> Mat6<R> {
-        let (v, omega) = split(xi);
-        let spin = norm(omega);
+    pub(crate) fn resistance(&self, xi: &Vec6<R>, gradient: Option<&Mat3<R>>) -> Mat6<R> {
+        let relative = Relative::new(xi, gradient);
+        let spin = norm(relative.omega);
         let [translation, rotation] = &self.stokes;
         let mut sum = about_centre_of_mass(self.centre, &translation.matrix(), &rotation.matrix());
         for part in &self.parts {
-            let at_part = add(v, cross(omega, part.centre));
-            let resistance = part.resistance(&self.constants, at_part, omega, spin);
+            let at_part = relative.at(part.centre);
+            let resistance = part.resistance(&self.constants, at_part, relative.omega, spin);
             for i in 0..6 {
                 for j in 0..6 {
                     sum[i][j] = sum[i][j] + resistance[i][j];
@@ -159,38 +167,102 @@ impl<F: Shape, R: Real> Closure<F, R> {
     /// [`Closure::load`] in two: the resistances D, and the rest, load + D xi; none where the flow stays
     /// attached.
     #[inline(always)]
-    pub(crate) fn resisted_load(&self, xi: &Vec6<R>) -> Option<(Vec6<R>, Mat6<R>)> {
-        let load = self.load(xi)?;
-        let resistance = self.resistance(xi);
+    pub(crate) fn resisted_load(
+        &self,
+        xi: &Vec6<R>,
+        gradient: Option<&Mat3<R>>,
+    ) -> Option<(Load<R>, Mat6<R>)> {
+        let load = self.load(xi, gradient)?;
+        let resistance = self.resistance(xi, gradient);
         let resisted = mul(&resistance, xi);
-        let rest = each(
+        let force = each(
             xi[0],
             #[inline(always)]
-            |i| load[i] + resisted[i],
+            |i| load.force[i] + resisted[i],
         );
-        Some((rest, resistance))
+        Some((Load { force, ..load }, resistance))
     }
 
-    /// Stokes resistance, about the centre of mass.
+    /// Stokes resistance, about the centre of mass, and what the fluid's rotation and strain feed through it.
     #[inline(always)]
-    fn friction(&self, v: Vec3<R>, omega: Vec3<R>) -> Loads<R> {
+    fn friction(&self, relative: &Relative<'_, R>) -> (Loads<R>, R) {
         let [translation, rotation] = &self.stokes;
-        let torque = negative(rotation.times(omega));
-        let lost = [v[0].of(0.0); 3];
+        let torque = negative(rotation.times(relative.omega));
+        let lost = [torque[0].of(0.0); 3];
         if F::CENTRED {
-            let force = negative(translation.times(v));
-            return Loads {
+            let force = negative(translation.times(relative.v));
+            let fed = relative.fed(self.centre, force, torque);
+            return (
+                Loads {
+                    force,
+                    torque,
+                    lost,
+                },
+                fed,
+            );
+        }
+        let force = negative(translation.times(relative.at(self.centre)));
+        let fed = relative.fed(self.centre, force, torque);
+        let torque = add(torque, cross(self.centre, force));
+        (
+            Loads {
                 force,
                 torque,
                 lost,
-            };
+            },
+            fed,
+        )
+    }
+}
+
+/// The motion of a body relative to the fluid around it, body frame.
+struct Relative<'a, R> {
+    /// Velocity of the centre of mass (m/s).
+    v: Vec3<R>,
+    /// Angular velocity of the body (rad/s), and that relative to the fluid.
+    spin: Vec3<R>,
+    omega: Vec3<R>,
+    /// Rotation rate of the fluid (rad/s), zero without a gradient.
+    turning: Vec3<R>,
+    /// Gradient of the fluid's velocity (1/s).
+    gradient: Option<&'a Mat3<R>>,
+}
+
+impl<'a, R: Real> Relative<'a, R> {
+    #[inline(always)]
+    fn new(xi: &Vec6<R>, gradient: Option<&'a Mat3<R>>) -> Self {
+        let (v, spin) = split(xi);
+        let (mut omega, mut turning) = (spin, [v[0].of(0.0); 3]);
+        if let Some(gradient) = gradient {
+            turning = rotation_rate(gradient);
+            omega = sub(spin, turning);
         }
-        let at_centre = add(v, cross(omega, self.centre));
-        let force = negative(translation.times(at_centre));
-        Loads {
-            force,
-            torque: add(torque, cross(self.centre, force)),
-            lost,
+        Self {
+            v,
+            spin,
+            omega,
+            turning,
+            gradient,
+        }
+    }
+
+    /// Velocity of the point `centre` of the body relative to the fluid there.
+    #[inline(always)]
+    fn at(&self, centre: Vec3<R>) -> Vec3<R> {
+        let velocity = add(self.v, cross(self.spin, centre));
+        match self.gradient {
+            Some(gradient) => sub(velocity, mat_vec(gradient, centre)),
+            None => velocity,
+        }
+    }
+
+    /// Power (W) that a force at `centre` and a couple have on the motion of the body beyond that on its motion
+    /// relative to the fluid: what the fluid's own rotation and strain feed.
+    #[inline(always)]
+    fn fed(&self, centre: Vec3<R>, force: Vec3<R>, couple: Vec3<R>) -> R {
+        match self.gradient {
+            Some(gradient) => dot(force, mat_vec(gradient, centre)) + dot(couple, self.turning),
+            None => self.v[0].of(0.0),
         }
     }
 }
@@ -546,7 +618,7 @@ mod tests {
     fn statics(closure: &Closure, area: f64, degrees: f64) -> (f64, f64) {
         let (sin, cos) = (degrees.to_radians().sin(), degrees.to_radians().cos());
         let v = [cos, -sin, 0.0];
-        let (force, torque) = split(&closure.load(&join(v, [0.0; 3])).unwrap());
+        let (force, torque) = split(&closure.load(&join(v, [0.0; 3]), None).unwrap().force);
         // With the Munk couple that Kirchhoff's terms contribute.
         let part = &closure.parts[0];
         let munk = scale(part.largest, part.incidence(v).couple);
@@ -580,7 +652,11 @@ mod tests {
     fn the_attached_switch_is_kirchhoff() {
         let mut closure = disc();
         closure.constants.attached = true;
-        assert_eq!(closure.load(&[1.0, -2.0, 0.5, 3.0, 1.0, -1.0]), None);
+        assert!(
+            closure
+                .load(&[1.0, -2.0, 0.5, 3.0, 1.0, -1.0], None)
+                .is_none()
+        );
     }
 
     /// A body without any symmetry, with a centre of mass off its centroid.
@@ -614,7 +690,7 @@ mod tests {
         for n in 0..2000 {
             let z = stream.normals(n);
             let xi: Vec6 = std::array::from_fn(|i| if i < 3 { z[i] } else { 4.0 * z[i] });
-            let load = closure.load(&xi).unwrap();
+            let load = closure.load(&xi, None).unwrap().force;
             let (v, omega) = split(&xi);
             let at_centre = add(v, cross(omega, closure.parts[0].centre));
             let power: f64 = (0..6).map(|i| load[i] * xi[i]).sum();
@@ -630,7 +706,8 @@ mod tests {
         for n in 0..500 {
             let z = stream.normals(n);
             let xi: Vec6 = std::array::from_fn(|i| if i < 3 { z[i] } else { 4.0 * z[i] });
-            let (free, resistance) = closure.resisted_load(&xi).unwrap();
+            let (free, resistance) = closure.resisted_load(&xi, None).unwrap();
+            let free = free.force;
             let (values, _) = eigen_symmetric(&resistance);
             assert!(values[0] >= -1e-12 * values[5], "{values:?}");
             // What is left is the rotational lift and the lost couple, of which the first does no work.
@@ -654,7 +731,12 @@ mod tests {
         let sphere = plate([0.5, 0.5, 0.5, 0.0, 0.0, 0.0], [0.45; 3], [1.0; 3]);
         // Moving along x with the spin along z: backspin lifts a ball that flies with its top
         // moving backwards, omega x v along +y.
-        let (force, _) = split(&sphere.load(&[1.0, 0.0, 0.0, 0.0, 0.0, 1.0]).unwrap());
+        let (force, _) = split(
+            &sphere
+                .load(&[1.0, 0.0, 0.0, 0.0, 0.0, 1.0], None)
+                .unwrap()
+                .force,
+        );
         assert!(force[1] > 0.0 && force[0] < 0.0, "{force:?}");
     }
 
@@ -668,7 +750,12 @@ mod tests {
                 [0.0, 1e-300, 0.0, 0.0, 0.0, 1.0],
             ] {
                 assert!(
-                    closure.load(&xi).unwrap().iter().all(|f| f.is_finite()),
+                    closure
+                        .load(&xi, None)
+                        .unwrap()
+                        .force
+                        .iter()
+                        .all(|f| f.is_finite()),
                     "{xi:?}"
                 );
             }

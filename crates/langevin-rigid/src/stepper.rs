@@ -4,10 +4,13 @@ use crate::batch::{Batch, BatchError, Pack, Precision};
 use crate::body::{Body, BodyError};
 use crate::equations::{Equations, Loads, Noise, SPEED_LIMIT, Separated, is_unit, possible};
 use crate::fluid::Fluid;
+use crate::input::{Forcing, Input, rotation_rate};
 use crate::kirchhoff::{Kirchhoff, Motion};
 use crate::langevin::Langevin;
-use crate::linalg::{Vec3, Vec6, add, cross, join, mul, norm, rotate, split};
-use crate::noise::{Counter, NoiseStream};
+use crate::linalg::{
+    Quat, Vec3, Vec6, add, cross, join, mul, norm, rotate, rotate_back, split, sub,
+};
+use crate::noise::Counter;
 use crate::pace::Pace;
 use crate::published::Published;
 use crate::runge_kutta;
@@ -25,7 +28,7 @@ use crate::turbulence::{
 /// allocates nothing.
 ///
 /// ```
-/// use langevin_rigid::{Body, Fluid, NoiseStream, Separation, Settings, State, Stepper};
+/// use langevin_rigid::{Body, Fluid, Input, Separation, Settings, State, Stepper};
 /// // A 10 cm rubber ball in water: its added mass is half the water it displaces.
 /// let volume = 5.236e-4;
 /// let mut body = Body {
@@ -42,7 +45,7 @@ use crate::turbulence::{
 /// let stepper = Stepper::new(&body, &Fluid::WATER, None, &Settings::default())?;
 /// let mut state = State::default();
 /// for _ in 0..100 {
-///     stepper.step(&mut state, 1e-3, &NoiseStream::default())?;
+///     stepper.step(&mut state, 1e-3, &Input::default())?;
 /// }
 /// assert!(state.position[1] < 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -125,6 +128,14 @@ pub enum StepError {
     /// The time step is negative, infinite or not a number.
     #[error("the time step is {0} s; it must be zero or a positive number")]
     TimeStep(f64),
+    /// The input is impossible.
+    #[error(
+        "the input of step {step} (flow or wrench) has a number that is not finite; whoever set it must mend it"
+    )]
+    Input {
+        /// Number of the step.
+        step: u64,
+    },
     /// The step would have left the state infinite, not a number, or faster than [`SPEED_LIMIT`].
     #[error(
         "the state diverged at t = {time} s (step {step}, time step {time_step} s, model `{model}`): it is no longer finite, or faster than {SPEED_LIMIT:e} m/s{}",
@@ -192,47 +203,50 @@ impl Stepper {
         })
     }
 
-    /// Advances `state` by `dt` (s) with the noise of its step number.
+    /// Advances `state` by `dt` (s) with the noise of its step number, under `input`, which stays what it is over the
+    /// step.
     ///
     /// A step longer than [`Stepper::longest_step`] is taken in parts, up to 256. However
-    /// long it is, the body gains no more energy than its weight, its buoyancy and turbulence give it.
+    /// long it is, the body gains no more energy than its weight, its buoyancy, `input` and turbulence give it.
     ///
     /// # Errors
     /// [`StepError`], with `state` left as it was before the step.
-    pub fn step(&self, state: &mut State, dt: f64, noise: &NoiseStream) -> Result<(), StepError> {
+    pub fn step(&self, state: &mut State, dt: f64, input: &Input) -> Result<(), StepError> {
         let before = state.motion();
+        let forcing = Forcing::of(input);
         let (motion, sound) = match &self.paper {
             None => {
                 let noise = Noise {
-                    seed: noise.seed,
-                    counter: Counter::new(state.step, noise.body),
+                    seed: input.noise.seed,
+                    counter: Counter::new(state.step, input.noise.body),
                 };
+                let (time, forcing) = (state.time, forcing.as_ref());
                 let stepped = match &self.symmetric {
-                    Some(equations) => equations.step(&before, state.time, dt, &noise),
-                    None => self.equations.step(&before, state.time, dt, &noise),
+                    Some(equations) => equations.step(&before, time, dt, &noise, forcing),
+                    None => self.equations.step(&before, time, dt, &noise, forcing),
                 };
                 (stepped.motion, stepped.sound)
             }
-            Some(paper) => self.paper_step(paper, &before, state, dt, noise),
+            Some(paper) => self.paper_step(paper, &before, state, dt, input, forcing.as_ref()),
         };
         let next = State::of(&motion, state.time + dt, state.step.wrapping_add(1));
         if !(sound && dt >= 0.0 && next.time.is_finite()) {
-            return Err(self.why_not(state, dt));
+            return Err(self.why_not(state, dt, input));
         }
         *state = next;
         Ok(())
     }
 
-    /// The longest step (s) that a body in this state takes whole; a longer one is taken in parts.
+    /// The longest step (s) that a body in this state takes whole in steady fluid; a longer one is taken in parts.
     ///
     /// Infinite for a body at rest without friction.
     pub fn longest_step(&self, state: &State) -> f64 {
-        let motion = self.equations.relative_to_fluid(&state.motion());
+        let motion = self.equations.relative_to_fluid(&state.motion(), None);
         self.equations.pace.longest_step(&motion.xi)
     }
 
     /// Why the step from `state` over `dt` could not be taken.
-    pub(crate) fn why_not(&self, state: &State, dt: f64) -> StepError {
+    pub(crate) fn why_not(&self, state: &State, dt: f64, input: &Input) -> StepError {
         let of_state = |name, wanted| StepError::State {
             name,
             wanted,
@@ -244,6 +258,8 @@ impl Stepper {
             of_state("the orientation", "unit quaternion")
         } else if !(dt >= 0.0 && dt.is_finite()) {
             StepError::TimeStep(dt)
+        } else if !input.is_finite() {
+            StepError::Input { step: state.step }
         } else if !possible(&state.motion()) {
             of_state(
                 "the speed or spin",
@@ -259,9 +275,9 @@ impl Stepper {
         }
     }
 
-    /// Advances every body of `batch` by `dt` (s), each with the noise of its own step number.
+    /// Advances every body of `batch` by `dt` (s), each with the noise of its own step number, in steady fluid.
     ///
-    /// In double precision a body has the same bits as by [`Stepper::step`].
+    /// In double precision a body has the same bits as by [`Stepper::step`]. Nothing is allocated.
     ///
     /// # Errors
     /// [`BatchError`], which names the bodies that diverged; they are left as they were, the others
@@ -274,7 +290,39 @@ impl Stepper {
         self.step_packs(batch.packs_mut(), dt)
     }
 
-    /// The same for some packs of a batch, so that a host can share them among its own threads.
+    /// The same under `inputs`, which gives a body's input from its number and its state; the noise is that of the batch.
+    ///
+    /// ```
+    /// use langevin_rigid::{Batch, Body, Flow, Fluid, Input, Settings, State, Stepper};
+    /// let disc = Body::disc(0.05, 0.001, 500.0)?;
+    /// let stepper = Stepper::new(&disc, &Fluid::AIR, None, &Settings::default())?;
+    /// let mut batch = Batch::<f64>::new(7);
+    /// for _ in 0..100 {
+    ///     batch.push(&State::default());
+    /// }
+    /// // A wind that grows with height.
+    /// let wind = |_, state: &State| Input {
+    ///     flow: Flow::uniform([0.3 * (state.position[1] + 2.0), 0.0, 0.0]),
+    ///     ..Input::default()
+    /// };
+    /// for _ in 0..10 {
+    ///     stepper.step_batch_with(&mut batch, 1e-2, wind)?;
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Stepper::step_batch`].
+    pub fn step_batch_with<P: Precision>(
+        &self,
+        batch: &mut Batch<P>,
+        dt: f64,
+        inputs: impl FnMut(u32, &State) -> Input,
+    ) -> Result<(), BatchError> {
+        self.step_packs_with(batch.packs_mut(), dt, inputs)
+    }
+
+    /// [`Stepper::step_batch`] for some packs of a batch, so that a host can share them among its own threads.
     ///
     /// # Errors
     /// As [`Stepper::step_batch`].
@@ -283,16 +331,47 @@ impl Stepper {
         packs: &mut [Pack<P>],
         dt: f64,
     ) -> Result<(), BatchError> {
+        self.each_pack(packs, dt, None)
+    }
+
+    /// [`Stepper::step_batch_with`] for some packs of a batch.
+    ///
+    /// # Errors
+    /// As [`Stepper::step_batch`].
+    pub fn step_packs_with<P: Precision>(
+        &self,
+        packs: &mut [Pack<P>],
+        dt: f64,
+        mut inputs: impl FnMut(u32, &State) -> Input,
+    ) -> Result<(), BatchError> {
+        self.each_pack(packs, dt, Some(&mut inputs))
+    }
+
+    fn each_pack<P: Precision>(
+        &self,
+        packs: &mut [Pack<P>],
+        dt: f64,
+        mut inputs: Option<&mut dyn FnMut(u32, &State) -> Input>,
+    ) -> Result<(), BatchError> {
         let mut stopped = Vec::new();
         match self.paper {
             _ if dt.is_nan() || dt < 0.0 => {
                 let places = packs.iter().flat_map(Pack::bodies);
                 stopped.extend(places.map(|body| (body, StepError::TimeStep(dt))));
             }
-            None => P::step(self, packs, dt, &mut stopped),
+            None => {
+                let mut forced = |pack: &Pack<P>| pack.forced(inputs.as_mut()?);
+                P::step(self, packs, dt, &mut forced, &mut stopped);
+            }
             Some(_) => {
+                let mut input = |body, state: &State| match &mut inputs {
+                    Some(inputs) => inputs(body, state),
+                    None => Input::default(),
+                };
                 for pack in packs {
-                    pack.step_each(&mut stopped, |state, noise| self.step(state, dt, noise));
+                    pack.step_each(&mut input, &mut stopped, |state, input| {
+                        self.step(state, dt, input)
+                    });
                 }
             }
         }
@@ -307,7 +386,7 @@ impl Stepper {
 
     /// Kinetic energy of the body and the fluid it moves, relative to the undisturbed fluid (J).
     pub fn kinetic_energy(&self, state: &State) -> f64 {
-        let motion = self.equations.relative_to_fluid(&state.motion());
+        let motion = self.equations.relative_to_fluid(&state.motion(), None);
         self.equations.kirchhoff.energy(&motion.xi)
     }
 
@@ -324,7 +403,7 @@ impl Stepper {
     }
 
     fn impulses(&self, state: &State) -> (Vec3, Vec3) {
-        let xi = self.equations.relative_to_fluid(&state.motion()).xi;
+        let xi = self.equations.relative_to_fluid(&state.motion(), None).xi;
         let (p, l) = split(&mul(&self.equations.kirchhoff.total, &xi));
         let world = |a| rotate(state.orientation, a);
         let linear = world(p);
@@ -337,19 +416,36 @@ impl Stepper {
         before: &Motion,
         state: &State,
         dt: f64,
-        noise: &NoiseStream,
+        input: &Input,
+        forcing: Option<&Forcing>,
     ) -> (Motion, bool) {
-        let normals = Counter::new(state.step, noise.body).normals(noise.seed);
-        let mut motion = self.equations.relative_to_fluid(before);
+        let normals = Counter::new(state.step, input.noise.body).normals(input.noise.seed);
+        let mut motion = self.equations.relative_to_fluid(before, forcing);
         match paper {
             Paper::RungeKutta4(langevin) => {
-                self.runge_kutta_step(&mut motion, langevin.as_deref(), state.time, dt, &normals);
+                let langevin = langevin.as_deref();
+                self.runge_kutta_step(&mut motion, langevin, state.time, dt, &normals, forcing);
             }
-            Paper::Published(published) => published.step(&mut motion, state.time, dt, &normals),
+            Paper::Published(published) => {
+                let outside = |m: &Motion| self.outside(m, forcing);
+                published.step(&mut motion, state.time, dt, &normals, outside);
+            }
         }
-        let after = self.equations.in_the_world(motion, dt);
+        let after = self.equations.in_the_world(motion, dt, forcing);
         let sound = possible(&after) && is_unit(before.orientation);
         (after, sound)
+    }
+
+    /// The generalized force of the forcing alone (body frame).
+    fn outside(&self, motion: &Motion, forcing: Option<&Forcing>) -> Vec6 {
+        let Some(forcing) = forcing else {
+            return [0.0; 6];
+        };
+        let kirchhoff = &self.equations.kirchhoff;
+        let into_body = |a| rotate_back(motion.orientation, a);
+        let with = kirchhoff.static_load(&kirchhoff.statics(Some(forcing)), into_body);
+        let without = kirchhoff.static_load(&kirchhoff.statics(None), into_body);
+        std::array::from_fn(|i| with[i] - without[i])
     }
 
     fn runge_kutta_step(
@@ -359,14 +455,20 @@ impl Stepper {
         time: f64,
         dt: f64,
         normals: &[f64; 6],
+        forcing: Option<&Forcing>,
     ) {
         let kirchhoff = &self.equations.kirchhoff;
+        let statics = kirchhoff.statics(forcing);
         let start = motion.xi;
         runge_kutta::step(motion, time, dt, |m, t| {
             let mut rate = kirchhoff.momentum_rate(&m.xi);
-            accumulate(&mut rate, &kirchhoff.static_load(m.orientation));
+            accumulate(
+                &mut rate,
+                &kirchhoff.static_load(&statics, |a| rotate_back(m.orientation, a)),
+            );
             if let Some(langevin) = langevin {
-                accumulate(&mut rate, &langevin.relaxation(&m.xi, t));
+                let relative = relative_to_turning(&m.xi, m.orientation, forcing);
+                accumulate(&mut rate, &langevin.relaxation(&relative, t));
             }
             mul(&kirchhoff.inverse, &rate)
         });
@@ -377,6 +479,18 @@ impl Stepper {
             );
         }
     }
+}
+
+/// The velocity `xi` less the spin of the fluid (body frame).
+fn relative_to_turning(xi: &Vec6, orientation: Quat, forcing: Option<&Forcing>) -> Vec6 {
+    let Some(gradient) = forcing.and_then(|forcing| forcing.gradient) else {
+        return *xi;
+    };
+    let (v, omega) = split(xi);
+    join(
+        v,
+        sub(omega, rotate_back(orientation, rotation_rate(&gradient))),
+    )
 }
 
 impl State {
@@ -442,16 +556,13 @@ fn loads(
                 Some(Paper::RungeKutta4(Some(Box::new(langevin)))),
             )
         }
-        Model::Consistent => (Loads::Langevin(Box::new(langevin(mean()?)?)), None),
+        Model::Consistent => (Loads::Langevin(langevin(mean()?)?), None),
         Model::Separated => {
             let constants = settings.separated;
             let noise = langevin(source()?.with_intensity(constants.turbulence_intensity))?;
             let closure = Closure::new(body, fluid.density, fluid.viscosity, constants)
                 .ok_or(SetupError::NoSeparation)?;
-            (
-                Loads::Separated(Box::new(Separated { closure, noise })),
-                None,
-            )
+            (Loads::Separated(Separated { closure, noise }), None)
         }
         Model::Published(units) if by_the_paper => {
             let published = Published::new(body, fluid, settings.gravity, units, source()?)

@@ -7,7 +7,7 @@
 
 use crate::body::{Body, Separation, Surface};
 use crate::fluid::Fluid;
-use crate::kirchhoff::{Kirchhoff, Motion};
+use crate::kirchhoff::{Kirchhoff, Load, Motion};
 use crate::linalg::{
     Mat3, Vec3, Vec6, add, add_scaled, cross, dot, join, mat_vec, norm, quat_from_rotation_vector,
     scale, split,
@@ -89,7 +89,13 @@ impl Card {
         let mut turn = start[3];
         for _ in 0..steps {
             let before = motion.xi[5];
-            self.0.step(&mut motion, h, |xi| Some(Self::load(xi)));
+            let statics = self.0.statics(None);
+            self.0.step(&mut motion, h, &statics, |xi, _| {
+                Some(Load {
+                    force: Self::load(xi),
+                    fed: 0.0,
+                })
+            });
             turn += 0.5 * h * (before + motion.xi[5]);
             // The quaternion knows the turn to rounding, the sum knows how often around.
             let [_, _, z, w] = motion.orientation;

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{chiral, frozen};
-use langevin_rigid::{Fluid, Integrator, Model, NoiseStream, Settings, State, Stepper};
+use langevin_rigid::{Fluid, Input, Integrator, Model, Settings, State, Stepper};
 
 #[test]
 fn a_step_allocates_nothing() {
@@ -28,9 +28,7 @@ fn a_step_allocates_nothing() {
             let mut state = State::default();
             let counted = allocation_counter::measure(|| {
                 for _ in 0..10 {
-                    stepper
-                        .step(&mut state, 1e-5, &NoiseStream::default())
-                        .unwrap();
+                    stepper.step(&mut state, 1e-5, &Input::default()).unwrap();
                 }
             });
             assert_eq!(counted.count_total, 0, "{model} {turbulence}");

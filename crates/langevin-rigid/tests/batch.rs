@@ -87,7 +87,7 @@ fn a_body_has_the_same_bits_alone_and_in_a_batch() {
                 body: body as u32,
             };
             for _ in 0..40 {
-                stepper.step(&mut alone, dt, &noise).unwrap();
+                stepper.step(&mut alone, dt, &noise.into()).unwrap();
             }
             assert_eq!(batch.state(body), Some(alone), "{model}, body {body}");
         }

@@ -28,7 +28,7 @@ fn stepper(integrator: Integrator, turbulence: TurbulenceSource) -> Stepper {
 
 fn advance(stepper: &Stepper, state: &mut State, noise: NoiseStream, steps: usize) {
     for _ in 0..steps {
-        stepper.step(state, 2e-3, &noise).unwrap();
+        stepper.step(state, 2e-3, &noise.into()).unwrap();
     }
 }
 

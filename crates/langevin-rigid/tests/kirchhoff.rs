@@ -11,9 +11,7 @@ mod common;
 
 use common::{chiral, distance, ellipsoid, norm};
 use langevin_rigid::linalg::{quat_from_rotation_vector, rotate};
-use langevin_rigid::{
-    Body, Fluid, GRAVITY, Integrator, Model, NoiseStream, Settings, State, Stepper,
-};
+use langevin_rigid::{Body, Fluid, GRAVITY, Input, Integrator, Model, Settings, State, Stepper};
 
 const WATER: Fluid = Fluid {
     density: 1000.0,
@@ -36,7 +34,7 @@ fn stepper(body: &Body, fluid: &Fluid, gravity: [f64; 3], integrator: Integrator
 
 fn advance(stepper: &Stepper, state: &mut State, dt: f64, steps: usize) {
     for _ in 0..steps {
-        stepper.step(state, dt, &NoiseStream::default()).unwrap();
+        stepper.step(state, dt, &Input::default()).unwrap();
     }
 }
 

@@ -10,8 +10,8 @@ mod common;
 
 use common::{chiral, ellipsoid, frozen, norm};
 use langevin_rigid::{
-    Body, Fluid, Integrator, LangevinCoefficients, Model, NoiseStream, Settings, State, StepError,
-    Stepper, Turbulence, TurbulenceSource, falling_speed,
+    Body, Fluid, Input, Integrator, LangevinCoefficients, Model, NoiseStream, Settings, State,
+    StepError, Stepper, Turbulence, TurbulenceSource, falling_speed,
 };
 
 const AIR: Fluid = Fluid {
@@ -40,7 +40,7 @@ fn variance(stepper: &Stepper, dt: f64, spacing: usize) -> f64 {
         let mut state = State::default();
         for n in 0..samples + 20 {
             for _ in 0..spacing {
-                stepper.step(&mut state, dt, &noise).unwrap();
+                stepper.step(&mut state, dt, &noise.into()).unwrap();
             }
             if n >= 20 {
                 sum += norm(state.velocity).powi(2) / 3.0;
@@ -111,7 +111,7 @@ fn without_noise_the_relaxation_is_exact_at_any_step() {
         };
         for _ in 0..steps {
             stepper
-                .step(&mut state, 0.5 / f64::from(steps), &NoiseStream::default())
+                .step(&mut state, 0.5 / f64::from(steps), &Input::default())
                 .unwrap();
         }
         assert!(
@@ -144,9 +144,7 @@ fn relaxation_never_feeds_energy_even_with_full_coupling() {
     };
     let mut before = stepper.kinetic_energy(&state);
     for _ in 0..500 {
-        stepper
-            .step(&mut state, 1e-3, &NoiseStream::default())
-            .unwrap();
+        stepper.step(&mut state, 1e-3, &Input::default()).unwrap();
         let after = stepper.kinetic_energy(&state);
         assert!(after <= before * (1.0 + 1e-9), "{before} -> {after}");
         before = after;
@@ -178,7 +176,7 @@ fn a_sheet_finds_a_terminal_speed_of_the_order_of_u0() {
             if n == 500 {
                 fallen[0] = state.position[1];
             }
-            stepper.step(&mut state, 5e-3, &noise).unwrap();
+            stepper.step(&mut state, 5e-3, &noise.into()).unwrap();
         }
         fallen[1] = state.position[1];
         let speed = (fallen[0] - fallen[1]) / 2.5;
@@ -204,11 +202,7 @@ fn the_printed_equations_diverge_and_say_so() {
             velocity: [0.0, -0.4, 0.0],
             ..State::default()
         };
-        let error = (0..400).find_map(|_| {
-            stepper
-                .step(&mut state, 5e-3, &NoiseStream::default())
-                .err()
-        });
+        let error = (0..400).find_map(|_| stepper.step(&mut state, 5e-3, &Input::default()).err());
         let Some(StepError::Diverged { time, model, .. }) = error else {
             panic!("{name} did not diverge")
         };
@@ -270,7 +264,7 @@ fn kirchhoff_draws_no_noise() {
         };
         for _ in 0..50 {
             stepper
-                .step(&mut state, 1e-3, &NoiseStream { seed, body: 0 })
+                .step(&mut state, 1e-3, &NoiseStream { seed, body: 0 }.into())
                 .unwrap();
         }
         state
@@ -292,7 +286,7 @@ fn a_body_in_its_own_turbulence_never_runs_away() {
         let noise = NoiseStream { seed, body: 0 };
         let mut state = State::default();
         for _ in 0..1000 {
-            stepper.step(&mut state, 0.02, &noise).unwrap();
+            stepper.step(&mut state, 0.02, &noise.into()).unwrap();
         }
     }
 }

@@ -11,8 +11,8 @@ mod common;
 
 use common::{ellipsoid, frozen, norm};
 use langevin_rigid::{
-    Body, Fluid, Integrator, Model, NoiseStream, Settings, State, StepError, Stepper, Turbulence,
-    TurbulenceSource, falling_speed,
+    Body, Fluid, Input, Integrator, Model, NoiseStream, Settings, State, StepError, Stepper,
+    Turbulence, TurbulenceSource, falling_speed,
 };
 
 const AIR: Fluid = Fluid {
@@ -59,9 +59,7 @@ fn the_printed_cross_term_does_not_conserve_energy() {
         };
         let before = stepper.kinetic_energy(&state);
         for _ in 0..1000 {
-            stepper
-                .step(&mut state, 1e-3, &NoiseStream::default())
-                .unwrap();
+            stepper.step(&mut state, 1e-3, &Input::default()).unwrap();
         }
         (stepper.kinetic_energy(&state) / before - 1.0).abs()
     };
@@ -82,12 +80,10 @@ fn divergence(model: &str, dt: f64) -> Option<f64> {
     let settings = settings(model, langevin_rigid::GRAVITY);
     let stepper = Stepper::new(&body, &AIR, Some(&history), &settings).unwrap();
     let mut state = State::default();
-    (0..(2.0 / dt) as u32).find_map(|_| {
-        match stepper.step(&mut state, dt, &NoiseStream::default()) {
-            Err(StepError::Diverged { time, .. }) => Some(time),
-            Err(error) => panic!("{error}"),
-            Ok(()) => None,
-        }
+    (0..(2.0 / dt) as u32).find_map(|_| match stepper.step(&mut state, dt, &Input::default()) {
+        Err(StepError::Diverged { time, .. }) => Some(time),
+        Err(error) => panic!("{error}"),
+        Ok(()) => None,
     })
 }
 
@@ -118,7 +114,7 @@ fn the_printed_spin_is_a_random_walk() {
                 let noise = NoiseStream { seed: 1, body };
                 let mut state = State::default();
                 for _ in 0..(time / 1e-3) as u32 {
-                    stepper.step(&mut state, 1e-3, &noise).unwrap();
+                    stepper.step(&mut state, 1e-3, &noise.into()).unwrap();
                 }
                 norm(state.angular_velocity).powi(2) / f64::from(bodies)
             })

@@ -10,7 +10,7 @@ mod common;
 use common::{distance, ellipsoid};
 use langevin_rigid::linalg::{quat_from_rotation_vector, rotate};
 use langevin_rigid::{
-    Fluid, Model, NoiseStream, SeparatedFlow, Separation, Settings, State, Stepper,
+    Fluid, Input, Model, NoiseStream, SeparatedFlow, Separation, Settings, State, Stepper,
 };
 
 fn diagonal(d: [f64; 3]) -> [[f64; 3]; 3] {
@@ -45,9 +45,7 @@ fn without_weight_energy_never_grows() {
         };
         let mut before = stepper.kinetic_energy(&state);
         for _ in 0..400 {
-            stepper
-                .step(&mut state, 2e-3, &NoiseStream::default())
-                .unwrap();
+            stepper.step(&mut state, 2e-3, &Input::default()).unwrap();
             let after = stepper.kinetic_energy(&state);
             assert!(
                 after <= before * (1.0 + 1e-6),
@@ -77,9 +75,7 @@ fn a_long_body_released_along_its_axis_turns_broadside() {
         ..State::default()
     };
     for _ in 0..5000 {
-        stepper
-            .step(&mut state, 1e-3, &NoiseStream::default())
-            .unwrap();
+        stepper.step(&mut state, 1e-3, &Input::default()).unwrap();
     }
     let axis = rotate(state.orientation, [1.0, 0.0, 0.0]);
     assert!(
@@ -121,7 +117,7 @@ fn a_symmetric_body_moves_like_one_that_hardly_is_not() {
             };
             for _ in 0..50 {
                 let noise = NoiseStream::default();
-                stepper.step(&mut state, 2e-3, &noise).unwrap();
+                stepper.step(&mut state, 2e-3, &noise.into()).unwrap();
             }
             state
         };

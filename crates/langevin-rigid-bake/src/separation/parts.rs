@@ -6,7 +6,7 @@
 //! straight body in uniform motion add up to the body. Slices overlap: a linear ramp leads from one
 //! to the next, which keeps first moments exact on any triangles.
 
-use langevin_rigid::Part;
+use langevin_rigid::{MOST_SLICES, Part};
 use langevin_rigid::linalg::{Mat3, Vec3, eigen_symmetric};
 
 use super::panels::{Panel, Panels};
@@ -19,7 +19,7 @@ use crate::mesh::vector::{add, cross, dot, scale, sub};
 /// Length over width from which a body is cut.
 const LONG: f64 = 2.0;
 /// Most slices of a body.
-const MOST: usize = 8;
+const MOST: usize = MOST_SLICES;
 
 /// The slices of a long body, in the frame of its mesh; none for a body less than twice as long as
 /// wide.

@@ -12,7 +12,7 @@ use serde::Serialize;
 /// Euler's constant.
 const EULER: f64 = 0.577_215_664_901_532_9;
 /// Length of a strip in chords: as good as infinite.
-const SPAN: f64 = 1000.0;
+const SPAN: f64 = 100.0;
 /// Sides of the polygon that a disc is drawn as.
 const SIDES: u32 = 64;
 /// Length of the piece of a strip that is drawn, chords.
@@ -103,9 +103,9 @@ fn strip(inertia_ratio: f64, h: f64) -> Body {
     let mass = inertia_ratio / h * volume;
     let about_span = mass * (a * a + b * b) / 3.0;
     let long = mass * SPAN * SPAN / 12.0;
-    // Along the span nothing moves in a plane fall, and nothing turns out of the plane: so heavy that neither
-    // could limit the step.
-    let along = SPAN.powi(3);
+    // Along the span nothing moves in a plane fall; this makes the tensor positive, no more. Nothing turns out of the
+    // plane either: so hard to turn that it could not limit the step.
+    let along = 0.01 * SPAN;
     let turning = PI / 8.0 * (a * a - b * b).powi(2) * SPAN;
     Body {
         mass,

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use langevin_rigid::linalg::quat_from_rotation_vector;
 use langevin_rigid::{
-    Body, Fluid, Model, NoiseStream, SeparatedFlow, Settings, SetupError, State, StepError, Stepper,
+    Body, Fluid, Model, Input, SeparatedFlow, Settings, SetupError, State, StepError, Stepper,
 };
 use langevin_rigid_bake::progress::Progress;
 use rayon::prelude::*;
@@ -105,7 +105,7 @@ impl Case {
             if step % PATIENCE == 0 && cancelled() {
                 return Ok(None);
             }
-            if let Err(error) = stepper.step(&mut state, time_step, &NoiseStream::default()) {
+            if let Err(error) = stepper.step(&mut state, time_step, &Input::default()) {
                 return Ok(Some(Err(error)));
             }
             if step >= half {
