@@ -112,6 +112,8 @@ pub struct Pack<P = f64> {
 /// What acts on the bodies of a pack over a step.
 pub struct Forced<P> {
     inputs: [Input; PACK],
+    /// A bit for each body whose input is finite.
+    sound: u64,
     velocity: [[P; PACK]; 3],
     /// Row by row; none where no body has one.
     gradient: Option<[[[P; PACK]; 3]; 3]>,
@@ -269,6 +271,7 @@ impl<P: Precision> Pack<P> {
         if !each.iter().any(|input| Forcing::of(input).is_some()) {
             return None;
         }
+        let finite = |(place, input): (usize, &Input)| u64::from(input.is_finite()) << place;
         let turns = each
             .iter()
             .any(|input| input.flow.gradient != [[0.0; 3]; 3]);
@@ -279,6 +282,7 @@ impl<P: Precision> Pack<P> {
             acceleration: columns(&each, |input| input.flow.acceleration),
             force: columns(&each, |input| input.wrench.force),
             torque: columns(&each, |input| input.wrench.torque),
+            sound: each.iter().enumerate().map(finite).sum(),
             inputs: each,
         })
     }
@@ -362,8 +366,10 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
         alone,
     } = equations.step(&before, time, dt, &noise, forcing.as_ref());
 
-    let good = L::bits(sound & !alone);
-    let was = (good != (1 << L::COUNT) - 1).then(|| pack.clone());
+    let every = (1 << L::COUNT) - 1;
+    let told = forced.map_or(every, |forced| (forced.sound >> first) & every);
+    let good = L::bits(sound & !alone) & told;
+    let was = (good != every).then(|| pack.clone());
     store_columns(&mut pack.position, first, &after.position);
     store_columns(&mut pack.orientation, first, &after.orientation);
     store_columns(&mut pack.velocity, first, &after.xi);
@@ -378,7 +384,7 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
         let input = forced.map_or_else(Input::default, |forced| forced.inputs[place]);
         let input = pack.with_its_noise(place, input);
         let mut state = before;
-        let taken = match alone & (1 << (place - first)) {
+        let taken = match alone & told & (1 << (place - first)) {
             0 => Err(stepper.why_not(&before, dt, &input)),
             _ => stepper.step(&mut state, dt, &input),
         };

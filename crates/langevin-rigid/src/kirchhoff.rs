@@ -43,8 +43,8 @@ pub(crate) struct Kirchhoff<F: Shape = General, R: Real = f64> {
     pub(crate) buoyancy: Vec3<R>,
     pub(crate) centre_of_buoyancy: Vec3<R>,
     /// Mass of the displaced fluid, and that of the body less it (kg).
-    displaced: R,
-    net_mass: R,
+    pub(crate) displaced: R,
+    pub(crate) net_mass: R,
     /// Largest eigenvalues of the linear (1/kg) and the angular (1/(kg m^2)) block of T^-1.
     mobility: R,
     rotational_mobility: R,
@@ -530,7 +530,7 @@ impl<R: Real> Statics<R> {
 
 /// R^T G R: a tensor in the frame whose axes are the columns of `matrix`.
 #[inline(always)]
-fn seen_from<R: Real>(matrix: &Mat3<R>, tensor: &Mat3<R>) -> Mat3<R> {
+pub(crate) fn seen_from<R: Real>(matrix: &Mat3<R>, tensor: &Mat3<R>) -> Mat3<R> {
     let row = |i: usize| transposed_mat_vec(matrix, tensor[i]);
     let half = [row(0), row(1), row(2)];
     let column = |j: usize| transposed_mat_vec(matrix, [half[0][j], half[1][j], half[2][j]]);

@@ -26,6 +26,7 @@ mod kirchhoff;
 mod lanes;
 mod langevin;
 pub mod linalg;
+mod loads;
 mod modes;
 mod noise;
 mod pace;
@@ -48,6 +49,7 @@ pub use body::{Body, BodyError, MOST_SLICES, Part, Separation, Surface, shift_ad
 pub use equations::SPEED_LIMIT;
 pub use fluid::{Fluid, GRAVITY};
 pub use input::{Flow, Input, Wrench};
+pub use loads::Loads;
 pub use noise::{NORMALS_PER_STEP, NoiseStream};
 pub use published::UnitSystem;
 pub use run::{Ending, Hull, StopAt, run};

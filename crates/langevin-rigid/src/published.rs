@@ -53,6 +53,13 @@ pub(crate) struct Published {
     source: PreparedSource,
 }
 
+/// See [`Published::loads`].
+pub(crate) struct PrintedLoads {
+    pub(crate) buoyancy: Vec6,
+    pub(crate) added_mass: Vec6,
+    pub(crate) turbulence: Vec6,
+}
+
 impl Published {
     /// `None` if a tensor is not positive definite.
     pub(crate) fn new(
@@ -121,6 +128,29 @@ impl Published {
         );
         for i in 0..6 {
             motion.xi[i] += kick[i];
+        }
+    }
+
+    /// What the printed equations make of the change of the impulse beside weight, body frame (SI).
+    pub(crate) fn loads(&self, motion: &Motion, time: f64) -> PrintedLoads {
+        let (v_si, omega) = split(&motion.xi);
+        let v = scale(1.0 / self.length, v_si);
+        let alpha = self.coefficients(&motion.xi, time).alpha;
+        let displaced = rotate_back(motion.orientation, self.displaced_weight);
+        let load = |force, torque| {
+            join(
+                scale(self.force, force),
+                scale(self.force * self.length, torque),
+            )
+        };
+        let turned = sub(
+            cross(omega, mat_vec(&self.mass, v)),
+            cross(v, mat_vec(&self.mass, omega)),
+        );
+        PrintedLoads {
+            buoyancy: load([0.0; 3], cross(self.centre_of_buoyancy, displaced)),
+            added_mass: load(turned, scale(-1.0, cross(v, mat_vec(&self.added_mass, v)))),
+            turbulence: load(scale(-alpha, v), [0.0; 3]),
         }
     }
 

@@ -15,8 +15,8 @@ use crate::elementary::exp;
 use crate::input::rotation_rate;
 use crate::kirchhoff::Load;
 use crate::linalg::{
-    Mat3, Mat6, Vec3, Vec6, add, add_scaled, cholesky, cross, dot, each, eigen_symmetric, join,
-    lift, mat_vec, mul, norm, scale, split, sub,
+    Mat3, Mat6, Vec3, Vec6, add, cholesky, cross, dot, each, eigen_symmetric, join, lift, mat_vec,
+    mul, norm, scale, split, sub,
 };
 use crate::real::Real;
 use crate::shape::{Block, General, Shape};
@@ -130,7 +130,8 @@ impl<F: Shape, R: Real> Closure<F, R> {
         let (mut sum, mut fed) = self.friction(&relative);
         for part in &self.parts {
             let at_part = relative.at(part.centre);
-            let loads = part.loads(&self.constants, at_part, relative.omega, spin);
+            let stream = part.stream(&self.constants, at_part, relative.omega, spin);
+            let loads = part.loads(&stream).together();
             fed = fed + relative.fed(part.centre, loads.force, loads.torque);
             sum.add(part.centre, &loads);
         }
@@ -154,7 +155,8 @@ impl<F: Shape, R: Real> Closure<F, R> {
         let mut sum = about_centre_of_mass(self.centre, &translation.matrix(), &rotation.matrix());
         for part in &self.parts {
             let at_part = relative.at(part.centre);
-            let resistance = part.resistance(&self.constants, at_part, relative.omega, spin);
+            let stream = part.stream(&self.constants, at_part, relative.omega, spin);
+            let resistance = part.resistance(&stream);
             for i in 0..6 {
                 for j in 0..6 {
                     sum[i][j] = sum[i][j] + resistance[i][j];
@@ -267,6 +269,51 @@ impl<'a, R: Real> Relative<'a, R> {
     }
 }
 
+impl Closure {
+    /// [`Closure::load`] by cause, in the body frame, about the centre of mass.
+    pub(crate) fn causes(&self, xi: &Vec6, gradient: Option<&Mat3>) -> Causes {
+        let mut causes = Causes::default();
+        let Some(load) = self.load(xi, gradient) else {
+            return causes;
+        };
+        let relative = Relative::new(xi, gradient);
+        let (friction, _) = self.friction(&relative);
+        causes.friction = join(friction.force, friction.torque);
+        let mut rest: Vec6 = std::array::from_fn(|i| load.force[i] - causes.friction[i]);
+        for part in &self.parts {
+            let at_part = relative.at(part.centre);
+            let spin = norm(relative.omega);
+            let stream = part.stream(&self.constants, at_part, relative.omega, spin);
+            let loads = part.loads(&stream);
+            for (cause, force, torque) in [
+                (&mut causes.rotational_lift, loads.lift, [0.0; 3]),
+                (&mut causes.drag, negative(loads.drag), [0.0; 3]),
+                (&mut causes.normal_force, negative(loads.normal), [0.0; 3]),
+                (&mut causes.damping, [0.0; 3], loads.damping),
+            ] {
+                let about_mass = join(force, add(torque, cross(part.centre, force)));
+                for i in 0..6 {
+                    cause[i] += about_mass[i];
+                    rest[i] -= about_mass[i];
+                }
+            }
+        }
+        causes.lost_couple = join([0.0; 3], split(&rest).1);
+        causes
+    }
+}
+
+/// The loads of the closure by cause: force and torque about the centre of mass, body frame.
+#[derive(Default)]
+pub(crate) struct Causes {
+    pub(crate) drag: Vec6,
+    pub(crate) normal_force: Vec6,
+    pub(crate) rotational_lift: Vec6,
+    pub(crate) damping: Vec6,
+    pub(crate) lost_couple: Vec6,
+    pub(crate) friction: Vec6,
+}
+
 /// The body as its only part.
 fn whole(body: &Body) -> Part {
     let about_centre = shift_added_mass(&body.added_mass, body.centre_of_buoyancy);
@@ -299,6 +346,43 @@ impl<R: Real> Loads<R> {
         self.force = add(self.force, loads.force);
         self.torque = add(self.torque, add(loads.torque, cross(centre, loads.force)));
         self.lost = add(self.lost, loads.lost);
+    }
+}
+
+/// What a part sees of the fluid.
+struct Stream<R: Real> {
+    /// Velocity relative to the fluid at its centre (m/s), and angular velocity relative to it (rad/s).
+    v: Vec3<R>,
+    omega: Vec3<R>,
+    speed: R,
+    direction: Vec3<R>,
+    incidence: Incidence<R>,
+    attachment: R,
+    /// Factor of the rotational damping (1/s).
+    damping: R,
+}
+
+/// Loads of a part, at and about its centre.
+struct PartLoads<R> {
+    /// Rotational lift (N).
+    lift: Vec3<R>,
+    /// Pressure drag and normal force, reversed (N).
+    drag: Vec3<R>,
+    normal: Vec3<R>,
+    /// Rotational damping (N m).
+    damping: Vec3<R>,
+    /// The part of the couple that separation takes away (N m).
+    lost: Vec3<R>,
+}
+
+impl<R: Real> PartLoads<R> {
+    #[inline(always)]
+    fn together(&self) -> Loads<R> {
+        Loads {
+            force: sub(self.lift, add(self.drag, self.normal)),
+            torque: self.damping,
+            lost: self.lost,
+        }
     }
 }
 
@@ -367,50 +451,59 @@ impl PartClosure {
 }
 
 impl<F: Shape, R: Real> PartClosure<F, R> {
-    /// From the velocity relative to the fluid at the part's centre; `spin` is |omega|.
+    /// What a part sees, from the velocity relative to the fluid at its centre; `spin` is |omega|.
     #[inline(always)]
-    fn loads(&self, c: &SeparatedFlow, v: Vec3<R>, omega: Vec3<R>, spin: R) -> Loads<R> {
+    fn stream(&self, c: &SeparatedFlow, v: Vec3<R>, omega: Vec3<R>, spin: R) -> Stream<R> {
         let (zero, one) = (spin.of(0.0), spin.of(1.0));
         let speed = norm(v);
         let per_speed = R::choose(zero.less(speed), one / speed, zero);
         let direction = scale(per_speed, v);
-
         let incidence = self.incidence(direction);
         let attachment = self.attachment(c, &incidence, dot(omega, incidence.couple) * per_speed);
-        let couple = self.largest * (speed * speed);
+        Stream {
+            v,
+            omega,
+            speed,
+            direction,
+            incidence,
+            attachment,
+            damping: speed * self.per_length + spin,
+        }
+    }
+
+    #[inline(always)]
+    fn loads(&self, stream: &Stream<R>) -> PartLoads<R> {
+        let attachment = stream.attachment;
+        let incidence = &stream.incidence;
+        let couple = self.largest * (stream.speed * stream.speed);
         let normal = (attachment + attachment) * couple * incidence.leverage;
-        let resistance = add_scaled(self.drag(direction, speed), normal, incidence.pull);
-        let lift = cross(self.circulation.times(omega), v);
-        let damping = speed * self.per_length + spin;
-        Loads {
-            force: sub(scale(attachment, lift), resistance),
-            torque: scale(-damping, self.rotation.times(omega)),
-            lost: scale((attachment - one) * couple, incidence.couple),
+        let lift = cross(self.circulation.times(stream.omega), stream.v);
+        PartLoads {
+            lift: scale(attachment, lift),
+            drag: self.drag(stream.direction, stream.speed),
+            normal: scale(normal, incidence.pull),
+            damping: scale(-stream.damping, self.rotation.times(stream.omega)),
+            lost: scale((attachment - attachment.of(1.0)) * couple, incidence.couple),
         }
     }
 
     /// What resists in `loads`, as a tensor about the centre of mass.
     #[inline(always)]
-    fn resistance(&self, c: &SeparatedFlow, v: Vec3<R>, omega: Vec3<R>, spin: R) -> Mat6<R> {
-        let (zero, one) = (spin.of(0.0), spin.of(1.0));
-        let speed = norm(v);
-        let per_speed = R::choose(zero.less(speed), one / speed, zero);
-        let direction = scale(per_speed, v);
-        let incidence = self.incidence(direction);
-        let attachment = self.attachment(c, &incidence, dot(omega, incidence.couple) * per_speed);
-        let normal = (attachment + attachment) * self.largest * speed * incidence.leverage;
-        let along = self.drag_area.times(direction);
+    fn resistance(&self, stream: &Stream<R>) -> Mat6<R> {
+        let (attachment, speed) = (stream.attachment, stream.speed);
+        let normal = (attachment + attachment) * self.largest * speed * stream.incidence.leverage;
+        let along = self.drag_area.times(stream.direction);
         let size = norm(along);
-        let drag = speed * dot(direction, along) / size;
+        let drag = speed * dot(stream.direction, along) / size;
+        let zero = size.of(0.0);
         let drag = R::choose(zero.less(size), drag, zero);
-        let damping = speed * self.per_length + spin;
 
         let (directed, areas) = (self.directed.matrix(), self.drag_area.matrix());
         let (mut translation, mut rotation) = (areas, self.rotation.matrix());
         for i in 0..3 {
             for j in 0..3 {
                 translation[i][j] = normal * directed[i][j] + drag * areas[i][j];
-                rotation[i][j] = damping * rotation[i][j];
+                rotation[i][j] = stream.damping * rotation[i][j];
             }
         }
         about_centre_of_mass(self.centre, &translation, &rotation)
@@ -714,8 +807,8 @@ mod tests {
             let part = &closure.parts[0];
             let (v, omega) = split(&xi);
             let at_centre = add(v, cross(omega, part.centre));
-            let loads = part.loads(&closure.constants, at_centre, omega, norm(omega));
-            let fed = dot(loads.lost, omega);
+            let stream = part.stream(&closure.constants, at_centre, omega, norm(omega));
+            let fed = dot(part.loads(&stream).lost, omega);
             let power: f64 = (0..6).map(|i| free[i] * xi[i]).sum();
             let size = norm(at_centre).powi(3) + norm(omega).powi(3);
             let left = power - fed;

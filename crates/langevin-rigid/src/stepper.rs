@@ -4,12 +4,13 @@ use crate::batch::{Batch, BatchError, Pack, Precision};
 use crate::body::{Body, BodyError};
 use crate::equations::{Equations, Loads, Noise, SPEED_LIMIT, Separated, is_unit, possible};
 use crate::fluid::Fluid;
-use crate::input::{Forcing, Input, rotation_rate};
-use crate::kirchhoff::{Kirchhoff, Motion};
+use crate::input::{Forcing, Input, Wrench, rotation_rate};
+use crate::kirchhoff::{Kirchhoff, Motion, seen_from};
 use crate::langevin::Langevin;
 use crate::linalg::{
-    Quat, Vec3, Vec6, add, cross, join, mul, norm, rotate, rotate_back, split, sub,
+    Quat, Vec3, Vec6, add, cross, join, matrix_of, mul, norm, rotate, rotate_back, split, sub,
 };
+use crate::loads::Loads as ByCause;
 use crate::noise::Counter;
 use crate::pace::Pace;
 use crate::published::Published;
@@ -230,7 +231,8 @@ impl Stepper {
             Some(paper) => self.paper_step(paper, &before, state, dt, input, forcing.as_ref()),
         };
         let next = State::of(&motion, state.time + dt, state.step.wrapping_add(1));
-        if !(sound && dt >= 0.0 && next.time.is_finite()) {
+        let told = forcing.is_none() || input.is_finite();
+        if !(sound && told && dt >= 0.0 && next.time.is_finite()) {
             return Err(self.why_not(state, dt, input));
         }
         *state = next;
@@ -448,6 +450,50 @@ impl Stepper {
         std::array::from_fn(|i| with[i] - without[i])
     }
 
+    /// Adds what the model has beside Kirchhoff's terms and `input` to `loads`.
+    pub(crate) fn add_of_model(
+        &self,
+        motion: &Motion,
+        time: f64,
+        forcing: Option<&Forcing>,
+        loads: &mut ByCause,
+    ) {
+        let world = |load: &Vec6| {
+            let (force, torque) = split(load);
+            Wrench {
+                force: rotate(motion.orientation, force),
+                torque: rotate(motion.orientation, torque),
+            }
+        };
+        let relaxing = |langevin: &Langevin| {
+            let relative = relative_to_turning(&motion.xi, motion.orientation, forcing);
+            world(&langevin.relaxation(&relative, time))
+        };
+        match (&self.paper, &self.equations.loads) {
+            (Some(Paper::RungeKutta4(None)), _) | (None, Loads::None) => {}
+            (Some(Paper::RungeKutta4(Some(langevin))), _) => loads.turbulence = relaxing(langevin),
+            (Some(Paper::Published(published)), _) => {
+                let printed = published.loads(motion, time);
+                loads.buoyancy.torque = world(&printed.buoyancy).torque;
+                loads.added_mass = world(&printed.added_mass);
+                loads.turbulence = world(&printed.turbulence);
+            }
+            (None, Loads::Langevin(langevin)) => loads.turbulence = relaxing(langevin),
+            (None, Loads::Separated(separated)) => {
+                let matrix = matrix_of(motion.orientation);
+                let gradient = forcing.and_then(|forcing| forcing.gradient);
+                let gradient = gradient.map(|gradient| seen_from(&matrix, &gradient));
+                let causes = separated.closure.causes(&motion.xi, gradient.as_ref());
+                loads.drag = world(&causes.drag);
+                loads.normal_force = world(&causes.normal_force);
+                loads.rotational_lift = world(&causes.rotational_lift);
+                loads.damping = world(&causes.damping);
+                loads.lost_couple = world(&causes.lost_couple);
+                loads.friction = world(&causes.friction);
+            }
+        }
+    }
+
     fn runge_kutta_step(
         &self,
         motion: &mut Motion,
@@ -494,7 +540,7 @@ fn relative_to_turning(xi: &Vec6, orientation: Quat, forcing: Option<&Forcing>) 
 }
 
 impl State {
-    fn motion(&self) -> Motion {
+    pub(crate) fn motion(&self) -> Motion {
         Motion {
             position: self.position,
             orientation: self.orientation,

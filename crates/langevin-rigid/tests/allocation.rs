@@ -4,7 +4,7 @@
 mod common;
 
 use common::{chiral, frozen};
-use langevin_rigid::{Fluid, Input, Integrator, Model, Settings, State, Stepper};
+use langevin_rigid::{Batch, Flow, Fluid, Input, Integrator, Model, Settings, State, Stepper};
 
 #[test]
 fn a_step_allocates_nothing() {
@@ -32,6 +32,20 @@ fn a_step_allocates_nothing() {
                 }
             });
             assert_eq!(counted.count_total, 0, "{model} {turbulence}");
+
+            let mut batch = Batch::<f64>::new(1);
+            for _ in 0..40 {
+                batch.push(&State::default());
+            }
+            let wind = |_, state: &State| Input {
+                flow: Flow::turning(state.velocity, [0.0, 1.0, 0.0]),
+                ..Input::default()
+            };
+            let counted = allocation_counter::measure(|| {
+                stepper.step_batch(&mut batch, 1e-5).unwrap();
+                stepper.step_batch_with(&mut batch, 1e-5, wind).unwrap();
+            });
+            assert_eq!(counted.count_total, 0, "{model} {turbulence}, a batch");
         }
     }
 }

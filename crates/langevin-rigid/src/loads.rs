@@ -1,0 +1,126 @@
+//! The loads on a body by cause.
+
+use crate::input::{Forcing, Input, Wrench};
+use crate::linalg::{Quat, Vec3, add, cross, join, mul, rotate, rotate_back, scale, split, sub};
+use crate::state::State;
+use crate::stepper::Stepper;
+
+/// What acts on a body in a state, by cause; forces and torques about the centre of mass in the world frame.
+///
+/// Their sum is the rate at which the impulse of the body and the fluid that it moves changes
+/// ([`Stepper::linear_impulse`], [`Stepper::angular_impulse`] about the centre of mass), in the frame that moves with
+/// the fluid as it is now. Noise has no mean and is not among them.
+///
+/// ```
+/// use langevin_rigid::{Body, Fluid, Input, Settings, State, Stepper};
+/// let disc = Body::disc(0.05, 0.001, 500.0)?;
+/// let stepper = Stepper::new(&disc, &Fluid::AIR, None, &Settings::default())?;
+/// let falling = State { velocity: [0.0, -1.0, 0.0], ..State::default() };
+/// let loads = stepper.loads(&falling, &Input::default());
+/// for (cause, wrench) in loads.causes() {
+///     println!("{cause}: {:.2e} N, {:.2e} N m", wrench.force[1], wrench.torque[2]);
+/// }
+/// assert!(loads.drag.force[1] > 0.0 && loads.weight.force[1] < 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Loads {
+    /// Gravity on the mass of the body.
+    pub weight: Wrench,
+    /// Buoyancy at the centre of the displaced volume.
+    pub buoyancy: Wrench,
+    /// Kirchhoff's term of the added mass: the couple p x v that turns a body broadside to its way (Munk 1924).
+    pub added_mass: Wrench,
+    /// Pressure drag.
+    pub drag: Wrench,
+    /// Normal force of a body at incidence.
+    pub normal_force: Wrench,
+    /// Lift of the circulation that comes with spin.
+    pub rotational_lift: Wrench,
+    /// Resistance of the pressure to spin.
+    pub damping: Wrench,
+    /// What separation takes from the couple of the added mass.
+    pub lost_couple: Wrench,
+    /// Viscous resistance (Stokes).
+    pub friction: Wrench,
+    /// Mean load of the turbulence: the relaxation of the Langevin equation, in the models that have it.
+    pub turbulence: Wrench,
+    /// Push of a fluid that accelerates, (rho V + A) Du/Dt.
+    pub fluid_acceleration: Wrench,
+    /// The wrench of the input.
+    pub outside: Wrench,
+}
+
+impl Loads {
+    /// Each with the name of its field.
+    pub fn causes(&self) -> [(&'static str, Wrench); 12] {
+        [
+            ("weight", self.weight),
+            ("buoyancy", self.buoyancy),
+            ("added_mass", self.added_mass),
+            ("drag", self.drag),
+            ("normal_force", self.normal_force),
+            ("rotational_lift", self.rotational_lift),
+            ("damping", self.damping),
+            ("lost_couple", self.lost_couple),
+            ("friction", self.friction),
+            ("turbulence", self.turbulence),
+            ("fluid_acceleration", self.fluid_acceleration),
+            ("outside", self.outside),
+        ]
+    }
+
+    /// All together.
+    pub fn sum(&self) -> Wrench {
+        let causes = self.causes();
+        causes
+            .iter()
+            .fold(Wrench::default(), |sum, (_, wrench)| Wrench {
+                force: add(sum.force, wrench.force),
+                torque: add(sum.torque, wrench.torque),
+            })
+    }
+}
+
+impl Stepper {
+    /// The loads on the body in `state` under `input`, by cause.
+    pub fn loads(&self, state: &State, input: &Input) -> Loads {
+        let forcing = Forcing::of(input);
+        let motion = self
+            .equations
+            .relative_to_fluid(&state.motion(), forcing.as_ref());
+        let mut loads = Loads {
+            outside: input.wrench,
+            fluid_acceleration: self.pushed(state.orientation, input.flow.acceleration),
+            ..Loads::default()
+        };
+        let kirchhoff = &self.equations.kirchhoff;
+        let arm = rotate(state.orientation, kirchhoff.centre_of_buoyancy);
+        loads.weight.force = sub(kirchhoff.weight, kirchhoff.buoyancy);
+        loads.buoyancy = Wrench {
+            force: kirchhoff.buoyancy,
+            torque: cross(arm, kirchhoff.buoyancy),
+        };
+        let (v, _) = split(&motion.xi);
+        let (p, _) = split(&mul(&kirchhoff.total, &motion.xi));
+        loads.added_mass.torque = rotate(state.orientation, cross(p, v));
+        self.add_of_model(&motion, state.time, forcing.as_ref(), &mut loads);
+        loads
+    }
+
+    /// (rho V + A) a, with its torque.
+    fn pushed(&self, orientation: Quat, acceleration: Vec3) -> Wrench {
+        let kirchhoff = &self.equations.kirchhoff;
+        let a = rotate_back(orientation, acceleration);
+        let (force, torque) = split(&mul(&kirchhoff.total, &join(a, [0.0; 3])));
+        let mass = kirchhoff.net_mass + kirchhoff.displaced;
+        let displaced = scale(kirchhoff.displaced, a);
+        Wrench {
+            force: rotate(orientation, add(sub(force, scale(mass, a)), displaced)),
+            torque: rotate(
+                orientation,
+                add(torque, cross(kirchhoff.centre_of_buoyancy, displaced)),
+            ),
+        }
+    }
+}
