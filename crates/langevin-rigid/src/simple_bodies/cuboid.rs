@@ -71,7 +71,8 @@ fn added_mass(face: [f64; 2], depth: f64) -> f64 {
 /// What the two faces that lie `lever` long add to the added mass about the axis of length `span`
 /// (m^5): the strip's pi/128 of the lever's fourth power, with factors for the span and the `depth`.
 fn turning(span: f64, lever: f64, depth: f64) -> f64 {
-    let strip = PI / 128.0 * lever.powi(4) * span;
+    let square = lever * lever;
+    let strip = PI / 128.0 * square * square * span;
     let finite = 1.0 + 0.338 * libm::pow(lever / span, 1.0431);
     let thick = libm::log(1.0 + 0.0294 * depth * (1.0 / span + 1.0 / lever));
     let blunt = 1.0 + 0.671 * libm::pow(depth / lever, 1.1481);

@@ -19,12 +19,9 @@ pub(super) fn form(radius: f64, length: f64, axis: usize) -> Form {
     let mean_squares = along_axis(length * length / 12.0, 0.25 * r * r);
     let half_extents =
         mean_where_degenerate(mean_squares, half, |_, _| r, 0.25 * (PI * r + length));
-    let unit = added_mass(ratio);
-    let [end_on, across, turning] = [
-        unit[0] * r.powi(3),
-        unit[1] * r.powi(3),
-        unit[2] * r.powi(5),
-    ];
+    let [end_on, across, turning] = added_mass(ratio);
+    let cube = r * r * r;
+    let [end_on, across, turning] = [end_on * cube, across * cube, turning * cube * r * r];
     let translations = along_axis(end_on, across);
     let rotations = along_axis(0.0, turning);
     let added_mass = std::array::from_fn(|i| {

@@ -90,10 +90,9 @@ fn revolved(profile: &[[f64; 2]], axis: usize) -> Surface {
 
 /// Sine and cosine of the `k`th side's angle, exact on the axes.
 fn side(k: u32) -> (f64, f64) {
-    match (k % SIDES) * 4 / SIDES {
-        quarter if (k % SIDES) * 4 % SIDES == 0 => {
-            [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][quarter as usize]
-        }
+    let (quarter, rest) = (4 * k / SIDES, 4 * k % SIDES);
+    match rest {
+        0 => [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][quarter as usize],
         _ => libm::sincos(2.0 * PI * f64::from(k) / f64::from(SIDES)),
     }
 }
