@@ -118,7 +118,7 @@ impl Body {
     /// Against the bake, for lengths up to 25 times the width and the width up to 100 times the thickness:
     /// translational added mass within 3 % and rotational within 5 % (entries below a tenth of the largest, as
     /// of a plate that moves edgeways: of a tenth of it), drag areas 7 % of the largest, those of the slices of a
-    /// long box 8 %, their added mass 4 %, but for their rotation, 31 %.
+    /// long box 8 %, their added mass 4 %, but for their rotation, 32 %.
     ///
     /// As in the bake, a box with square sides has the mean drag and half-extents over the directions
     /// of their plane, which no longer tell its corners from its faces.
