@@ -5,11 +5,9 @@
 //! ([`stokes_translation`], [`stokes_rotation`]). Friction in a boundary layer depends on the
 //! Reynolds number and is in none of them.
 
-mod carlson;
 mod panels;
 mod parts;
 mod pressure;
-mod stokes;
 
 use langevin_rigid::Separation;
 use langevin_rigid::linalg::{Mat3, Vec3};
@@ -20,9 +18,9 @@ use crate::extents::principal_extents;
 use crate::mesh::TriMesh;
 use panels::Panels;
 
+pub use langevin_rigid::{stokes_rotation, stokes_translation};
 pub use parts::parts;
 pub use pressure::PressureDrag;
-pub use stokes::{stokes_rotation, stokes_translation};
 
 /// The tensors of a body, in the axes of its mesh, referring to the centroid of its volume.
 ///

@@ -6,6 +6,28 @@ use crate::linalg::{Mat3, Mat6, Vec3, cholesky, cross, eigen_symmetric};
 ///
 /// All vectors are in the body frame: its origin is the centre of mass, its axes are those of the
 /// mesh that the body was made from.
+///
+/// Bodies of simple form need no mesh: [`Body::sphere`], [`Body::ellipsoid`], [`Body::disc`],
+/// [`Body::plate`], [`Body::cylinder`] and [`Body::cuboid`] are in closed form. A first program lets a
+/// disc go in water and prints where it is, ten times a second:
+///
+/// ```
+/// use langevin_rigid::linalg::quat_from_rotation_vector;
+/// use langevin_rigid::{Body, Fluid, Input, Settings, State, Stepper};
+///
+/// let disc = Body::disc(0.01, 0.001, 2700.0)?;
+/// let stepper = Stepper::new(&disc, &Fluid::WATER, None, &Settings::default())?;
+/// let mut state = State::default();
+/// state.orientation = quat_from_rotation_vector([0.2, 0.0, 0.0]);
+/// for step in 1..=1000 {
+///     stepper.step(&mut state, 0.001, &Input::default())?;
+///     if step % 100 == 0 {
+///         println!("{:.1} s: {:.3?} m", state.time, state.position);
+///     }
+/// }
+/// # assert!(state.position[1] < -0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
     /// Mass m (kg).
@@ -119,6 +141,9 @@ pub enum BodyError {
         "the body's inertia is not a symmetric positive definite matrix; check its units (kg m^2) and its rows"
     )]
     Inertia,
+    /// The centre of mass asked for has a coordinate that is infinite or not a number.
+    #[error("the centre of mass has a coordinate that is not finite")]
+    CentreOfMass,
     /// The added mass is not symmetric.
     #[error("the body's added mass is not symmetric; bake the body again")]
     AddedMass,
@@ -126,6 +151,9 @@ pub enum BodyError {
 
 impl Body {
     /// Checks what every model relies on.
+    ///
+    /// # Errors
+    /// See [`BodyError`]; the first fault in the order of the fields.
     pub fn check(&self) -> Result<(), BodyError> {
         for (name, value) in [
             ("mass", self.mass),

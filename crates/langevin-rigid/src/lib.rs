@@ -18,6 +18,7 @@
 mod bake;
 mod batch;
 mod body;
+mod carlson;
 mod elementary;
 mod equations;
 mod fluid;
@@ -27,6 +28,7 @@ mod lanes;
 mod langevin;
 pub mod linalg;
 mod loads;
+mod mass_properties;
 mod modes;
 mod noise;
 mod pace;
@@ -37,11 +39,14 @@ mod runge_kutta;
 mod separated;
 mod settings;
 mod shape;
+mod simple_bodies;
 mod state;
 mod stepper;
+mod stokes;
 #[cfg(test)]
 mod thin_card;
 pub mod turbulence;
+mod wake;
 
 pub use bake::{Bake, BakeError};
 pub use batch::{Batch, BatchError, Pack, Precision};
@@ -57,10 +62,12 @@ pub use separated::SeparatedFlow;
 pub use settings::{Integrator, Model, Settings, UnknownName};
 pub use state::State;
 pub use stepper::{SetupError, StepError, Stepper, falling_reynolds, falling_speed};
+pub use stokes::{stokes_rotation, stokes_translation};
 pub use turbulence::{
     HistoryError, LangevinCoefficients, Turbulence, TurbulenceHistory, TurbulenceSource,
     kolmogorov_c0,
 };
+pub use wake::{SLIP_QUANTILE, Wake};
 
 /// Version of this crate.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

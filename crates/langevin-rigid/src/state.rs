@@ -1,6 +1,6 @@
 //! The state of one body.
 
-use crate::linalg::{Quat, Vec3, rotate, rotate_back};
+use crate::linalg::{Quat, Vec3, add, cross, rotate, rotate_back};
 
 /// Pose and velocities of a body at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +48,19 @@ impl State {
     pub fn set_world_velocities(&mut self, velocity: Vec3, angular_velocity: Vec3) {
         self.velocity = rotate_back(self.orientation, velocity);
         self.angular_velocity = rotate_back(self.orientation, angular_velocity);
+    }
+
+    /// The same motion of the same material points, told from a centre of mass that lies by `offset`
+    /// (body frame, m) from this one.
+    ///
+    /// For a body whose [mass properties change](crate::Body::with_mass_properties) under way.
+    #[must_use]
+    pub fn recentred(self, offset: Vec3) -> Self {
+        Self {
+            position: add(self.position, rotate(self.orientation, offset)),
+            velocity: add(self.velocity, cross(self.angular_velocity, offset)),
+            ..self
+        }
     }
 
     /// Whether every number is finite.

@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
-use super::carlson::{rd, rf};
+use crate::carlson::{rd, rf};
 
 /// Stokes resistance to translation along the axes of an ellipsoid, per dynamic viscosity (m).
 ///
 /// A velocity v along axis i is resisted by the force mu K_i v. `semi_axes` in metres, positive.
 ///
 /// ```
-/// use langevin_rigid_bake::separation::stokes_translation;
+/// use langevin_rigid::stokes_translation;
 ///
 /// let [k, _, _] = stokes_translation([0.5; 3]);
 /// assert!((k - 3.0 * std::f64::consts::PI).abs() < 1e-12); // 6 pi a
@@ -28,7 +28,7 @@ pub fn stokes_translation(semi_axes: [f64; 3]) -> [f64; 3] {
 /// metres, positive.
 ///
 /// ```
-/// use langevin_rigid_bake::separation::stokes_rotation;
+/// use langevin_rigid::stokes_rotation;
 ///
 /// let [k, _, _] = stokes_rotation([0.5; 3]);
 /// assert!((k - std::f64::consts::PI).abs() < 1e-12); // 8 pi a^3

@@ -5,7 +5,7 @@
 const DUPLICATIONS: usize = 16;
 
 /// R_F(x, y, z) = 1/2 int_0^inf dt / sqrt((t + x)(t + y)(t + z)); at most one argument is zero.
-pub(super) fn rf(x: f64, y: f64, z: f64) -> f64 {
+pub(crate) fn rf(x: f64, y: f64, z: f64) -> f64 {
     let mut a = [x, y, z];
     for _ in 0..DUPLICATIONS {
         a = duplicated(a).0;
@@ -18,7 +18,7 @@ pub(super) fn rf(x: f64, y: f64, z: f64) -> f64 {
 
 /// R_D(x, y, z) = 3/2 int_0^inf dt / (sqrt((t + x)(t + y)(t + z)) (t + z)); z is not zero, at most
 /// one of x and y is.
-pub(super) fn rd(x: f64, y: f64, z: f64) -> f64 {
+pub(crate) fn rd(x: f64, y: f64, z: f64) -> f64 {
     let (mut a, mut sum, mut factor) = ([x, y, z], 0.0, 1.0);
     for _ in 0..DUPLICATIONS {
         let (next, lambda) = duplicated(a);
