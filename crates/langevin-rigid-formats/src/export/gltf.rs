@@ -35,7 +35,7 @@ pub(super) fn glb(
     let deviation = animation.deviation(recording.trajectories);
     let mut file = File::default();
     let mesh = file.mesh(recording);
-    let animations = file.animation(&recording.conditions.scene, &animation);
+    let animations = file.animation(recording.conditions.scene, &animation);
     let [red, green, blue] = COLOUR;
     let document = json!({
         "asset": { "version": "2.0", "generator": concat!("Langevin Rigid ", env!("CARGO_PKG_VERSION")) },
@@ -45,7 +45,7 @@ pub(super) fn glb(
             "nodes": (0..animation.tracks.len()).collect::<Vec<_>>(),
             "extras": { KEY: of_run(recording, Up::Y, fps, deviation) },
         }],
-        "nodes": nodes(&recording.conditions.scene, &animation.tracks),
+        "nodes": nodes(recording.conditions.scene, &animation.tracks),
         "meshes": [mesh],
         "materials": [{
             "name": "matt",
