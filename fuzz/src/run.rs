@@ -4,9 +4,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use langevin_rigid::Bake;
-use langevin_rigid_formats::baking::bake_scene;
+use langevin_rigid_scenes::baking::bake_scene;
 use langevin_rigid_formats::export::{Format, Options, Recording, write};
-use langevin_rigid_formats::scene::Scene;
+use langevin_rigid_scenes::scene::Scene;
 use langevin_rigid_formats::trajectory::{CSV_HEADER, Trajectory, read_csv, write_csv};
 use tempfile::TempDir;
 
@@ -26,7 +26,7 @@ pub(crate) fn export(bytes: &[u8]) {
         return;
     };
     let recording = Recording {
-        scene: &STAGE.scene,
+        conditions: STAGE.scene.conditions(),
         bake: &STAGE.bake,
         trajectories: &trajectories,
     };

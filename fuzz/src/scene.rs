@@ -1,6 +1,6 @@
 //! Scene files.
 
-use langevin_rigid_formats::scene::Scene;
+use langevin_rigid_scenes::scene::Scene;
 
 /// Reads a scene, and what is written of it again.
 pub(crate) fn read(bytes: &[u8]) {

@@ -9,9 +9,9 @@ use langevin_rigid::{
 };
 use langevin_rigid_bake::body::{BodySpec, bake_body};
 use langevin_rigid_bake::shapes::Shape;
-use langevin_rigid_formats::advance::advance;
-use langevin_rigid_formats::baking::stepper;
-use langevin_rigid_formats::scene::Scene;
+use langevin_rigid_scenes::advance::advance;
+use langevin_rigid_scenes::baking::stepper;
+use langevin_rigid_scenes::scene::Scene;
 
 use crate::numbers::Numbers;
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use langevin_rigid_formats::files::{self, Claim};
-use langevin_rigid_formats::scene;
+use langevin_rigid_scenes::scene;
 
 use crate::arguments::Bake;
 use crate::bars::Bars;

@@ -10,7 +10,7 @@ use langevin_rigid_bake::added_mass;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::{Boundary, MacGrid, TurbulentFlow};
-use langevin_rigid_formats::{advance::advance, baking, scene};
+use langevin_rigid_scenes::{advance::advance, baking, scene};
 use rayon::prelude::*;
 use serde::Serialize;
 

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::baking::{Baked, SceneBakeError, bake_scene};
-use langevin_rigid_formats::scene::Scene;
+use langevin_rigid_scenes::baking::{Baked, SceneBakeError, bake_scene};
+use langevin_rigid_scenes::scene::Scene;
 
 use crate::say;
 

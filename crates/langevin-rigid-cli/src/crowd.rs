@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 use anyhow::{Result, bail};
 use langevin_rigid::{Batch, BatchError, Stepper};
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::baking;
 use langevin_rigid_formats::budget::Need;
-use langevin_rigid_formats::scene::{self, Scene};
+use langevin_rigid_scenes::baking;
+use langevin_rigid_scenes::scene::{self, Scene};
 use rayon::prelude::*;
 use serde::Serialize;
 

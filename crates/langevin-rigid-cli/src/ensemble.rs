@@ -7,13 +7,13 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::{Body, Hull};
-use langevin_rigid_formats::baking::{self, Baked};
 use langevin_rigid_formats::budget::Need;
-use langevin_rigid_formats::ensemble::{
+use langevin_rigid_formats::files::{self, Claim};
+use langevin_rigid_scenes::baking::{self, Baked};
+use langevin_rigid_scenes::ensemble::{
     self, Fall, FallEnding, SAMPLES_PER_SECOND, Statistics, landings_csv,
 };
-use langevin_rigid_formats::files::{self, Claim};
-use langevin_rigid_formats::scene::{self, Scene};
+use langevin_rigid_scenes::scene::{self, Scene};
 use serde::Serialize;
 
 use crate::arguments::Ensemble;

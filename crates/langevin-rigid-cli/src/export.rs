@@ -6,8 +6,8 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use langevin_rigid_formats::export::{self, Format, Options, Recording, Up};
 use langevin_rigid_formats::files::Claim;
-use langevin_rigid_formats::scene::{self, Scene};
 use langevin_rigid_formats::trajectory::{Trajectory, read_csv};
+use langevin_rigid_scenes::scene::{self, Scene};
 use serde_json::Value;
 
 use crate::arguments::Export;
@@ -26,7 +26,7 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     let baked = cache::bake(&scene, bars)?;
     bars.clear();
     let run = Recording {
-        scene: &scene,
+        conditions: scene.conditions(),
         bake: &baked.bake,
         trajectories: &trajectories,
     };

@@ -6,12 +6,12 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use anyhow::{Result, bail};
 use langevin_rigid::{Ending, Hull, NoiseStream, State, StepError, Stepper, run};
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::advance::advance;
-use langevin_rigid_formats::baking::Baked;
 use langevin_rigid_formats::budget;
-use langevin_rigid_formats::ensemble::side_by_side;
-use langevin_rigid_formats::scene::Scene;
 use langevin_rigid_formats::trajectory::Trajectory;
+use langevin_rigid_scenes::advance::advance;
+use langevin_rigid_scenes::baking::Baked;
+use langevin_rigid_scenes::ensemble::side_by_side;
+use langevin_rigid_scenes::scene::Scene;
 use rayon::prelude::*;
 
 use crate::bars::Bars;

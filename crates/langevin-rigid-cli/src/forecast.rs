@@ -3,10 +3,10 @@
 use anyhow::Result;
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::{Body, State};
-use langevin_rigid_formats::baking::characteristic_speed;
 use langevin_rigid_formats::budget::{self, Need};
 use langevin_rigid_formats::motion::Pose;
-use langevin_rigid_formats::scene::Scene;
+use langevin_rigid_scenes::baking::characteristic_speed;
+use langevin_rigid_scenes::scene::Scene;
 
 use crate::say;
 

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use langevin_rigid::Surface;
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::baking::Baked;
 use langevin_rigid_formats::files;
-use langevin_rigid_formats::picture::{
+use langevin_rigid_pictures::{
     Film, PictureError, PictureOptions, Pose, Subject, View, trajectory_picture,
 };
-use langevin_rigid_formats::scene::Scene;
+use langevin_rigid_scenes::baking::Baked;
+use langevin_rigid_scenes::scene::Scene;
 use rayon::prelude::*;
 
 use crate::arguments::{Shown, Simulate, Viewpoint};

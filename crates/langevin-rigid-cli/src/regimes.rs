@@ -5,12 +5,10 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
-use langevin_rigid_formats::ensemble::Motion;
 use langevin_rigid_formats::files::{self, Claim};
-use langevin_rigid_formats::picture::{
-    PictureOptions, Pose, Subject, View, regime_map, trajectory_picture,
-};
-use langevin_rigid_formats::regimes::{
+use langevin_rigid_pictures::{PictureOptions, Pose, Subject, View, trajectory_picture};
+use langevin_rigid_scenes::ensemble::Motion;
+use langevin_rigid_scenes::regimes::{
     self, Agreement, Case, Plate, Point, Published, Run, TILTS, UNCERTAINTY,
 };
 use serde::Serialize;
@@ -136,7 +134,7 @@ fn write_all(
     files::write(&folder.join("regimes.csv"), regimes::csv(runs).as_bytes())?;
     let json = serde_json::to_string_pretty(report)? + "\n";
     files::write(&folder.join("regimes.json"), json.as_bytes())?;
-    let map = regime_map(points, &caption(report))?;
+    let map = regimes::regime_map(points, &caption(report))?;
     files::write(&folder.join("regimes.png"), &map.png()?)?;
     let mut pictures = vec!["regimes.png".to_owned()];
     for motion in Motion::ALL {

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use anyhow::Result;
-use langevin_rigid_formats::scene::BUILT_IN;
+use langevin_rigid_scenes::scene::BUILT_IN;
 
 use crate::say;
 

@@ -6,13 +6,13 @@ use std::time::Instant;
 
 use anyhow::{Context as _, Result, bail};
 use langevin_rigid::{Hull, Integrator, Model};
-use langevin_rigid_formats::baking::Baked;
 use langevin_rigid_formats::export::{self, ExportError, Format, Options, Recording};
+use langevin_rigid_formats::files;
 use langevin_rigid_formats::files::Claim;
-use langevin_rigid_formats::picture::Film;
-use langevin_rigid_formats::scene::{self, Scene};
 use langevin_rigid_formats::trajectory::Trajectory;
-use langevin_rigid_formats::{baking, files};
+use langevin_rigid_pictures::Film;
+use langevin_rigid_scenes::baking::{self, Baked};
+use langevin_rigid_scenes::scene::{self, Scene};
 
 use crate::arguments::Simulate;
 use crate::bars::Bars;
@@ -58,11 +58,11 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     let trajectories: Vec<Trajectory> = falls.iter().map(Fall::trajectory).collect();
     let shot = Shot::new(options, &scene, &baked, &trajectories[0].poses);
     let run = Recording {
-        scene: &scene,
+        conditions: scene.conditions(),
         bake: &baked.bake,
         trajectories: &trajectories,
     };
-    let formats = write_all(options, &folder, &run, &shot, &mut summary)?;
+    let formats = write_all(options, &folder, &scene, &run, &shot, &mut summary)?;
     let film = match &options.frames {
         Some(folder) => {
             let work = || pictures::film(&shot, folder, options.fps, bars);
@@ -179,6 +179,7 @@ pub(crate) fn set_model(model: Option<Model>, scene: &mut Scene) {
 fn write_all(
     options: &Simulate,
     folder: &Path,
+    scene: &Scene,
     run: &Recording<'_>,
     shot: &Shot<'_>,
     summary: &mut Summary,
@@ -201,7 +202,7 @@ fn write_all(
         // What was computed is kept in the format that cannot fail.
         written = written.and(write(Format::Csv));
     }
-    let scene = resolved(run.scene)?;
+    let scene = resolved(scene)?;
     files::write(&folder.join("scene.toml"), scene.as_bytes())?;
     summary.seconds.write = started.elapsed().as_secs_f64();
 

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use langevin_rigid::{Body, State, Stepper};
-use langevin_rigid_formats::baking::{Baked, reynolds};
 use langevin_rigid_formats::export::{Deviation, Format};
-use langevin_rigid_formats::scene::Scene;
+use langevin_rigid_scenes::baking::{Baked, reynolds};
+use langevin_rigid_scenes::scene::Scene;
 use serde::Serialize;
 
 use crate::falls::Fall;

@@ -6,7 +6,7 @@ use std::io::Write as _;
 use anyhow::Result;
 use langevin_rigid::{Turbulence as Sample, TurbulenceHistory};
 use langevin_rigid_formats::files::{self, Claim};
-use langevin_rigid_formats::{baking, scene};
+use langevin_rigid_scenes::{baking, scene};
 
 use crate::arguments::Turbulence;
 use crate::bars::Bars;

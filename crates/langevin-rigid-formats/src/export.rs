@@ -1,6 +1,6 @@
 //! Runs for other programs: tables for analysis, animations for pictures.
 //!
-//! A [`Recording`] is a run: the scene, its bake, and where every body went. [`write()`] puts it into a folder
+//! A [`Recording`] is a run: how it was made, its bake, and where every body went. [`write()`] puts it into a folder
 //! in a [`Format`]. Tables have every step. Animations have frames at equal times, between which programs
 //! interpolate; [`Deviation`] says how far that takes the bodies from where they were.
 
@@ -20,7 +20,7 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::Path;
 
-use langevin_rigid::Bake;
+use langevin_rigid::{Bake, Fluid, Settings};
 
 pub use animation::Deviation;
 pub use format::{Format, UnknownFormat};
@@ -28,14 +28,28 @@ pub use up::{UnknownUp, Up};
 
 use crate::files::{self, WriteError};
 use crate::motion::MotionError;
-use crate::scene::Scene;
 use crate::trajectory::{Trajectory, write_csv};
+
+/// How a run was made, which animations say beside what they show.
+#[derive(Debug, Clone, Copy)]
+pub struct Conditions<'a> {
+    /// Name of the scene.
+    pub scene: &'a str,
+    /// What the bodies are immersed in.
+    pub fluid: &'a Fluid,
+    /// Model, integrator, turbulence, gravity.
+    pub settings: &'a Settings,
+    /// Seed of the noise.
+    pub seed: u64,
+    /// Time step (s).
+    pub time_step: f64,
+}
 
 /// A run: the bodies of a scene and where they went.
 #[derive(Debug, Clone, Copy)]
 pub struct Recording<'a> {
-    /// The scene as it was run.
-    pub scene: &'a Scene,
+    /// How it was made.
+    pub conditions: Conditions<'a>,
     /// Its bake, of which surface and mass properties are shown.
     pub bake: &'a Bake,
     /// One for each body; all have the same shape.
@@ -136,28 +150,38 @@ pub enum ExportError {
 /// Writes a recording into `folder` as [`Format::file_name`] says; of an animation gives how far it strays.
 ///
 /// ```
-/// use langevin_rigid::{NoiseStream, State};
-/// use langevin_rigid_formats::export::{Format, Options, Recording, write};
-/// use langevin_rigid_formats::{advance, baking, scene::Scene, trajectory::Trajectory};
-/// let scene = Scene::parse("ball", "ball.toml", r#"
-///     fluid.preset = "water"
-///     run = { time_step = 0.002, duration = 0.1, model = "kirchhoff" }
-///     [body]
-///     shape = "ellipsoid"
-///     semi_axes = [0.01, 0.01, 0.01]
-///     triangles = 80
-///     density = 1100.0
-/// "#)?;
-/// let bake = baking::bake_scene(&scene, None, &())?.bake;
-/// let stepper = baking::stepper(&scene, &bake)?;
-/// let mut states = vec![scene.release];
+/// use langevin_rigid::{Bake, Fluid, Model, NoiseStream, Settings, State, Stepper};
+/// use langevin_rigid_bake::body::{BodySpec, bake_body};
+/// use langevin_rigid_bake::shapes::Shape;
+/// use langevin_rigid_formats::export::{Conditions, Format, Options, Recording, write};
+/// use langevin_rigid_formats::trajectory::Trajectory;
+/// let ball = Shape::Ellipsoid { semi_axes: [0.01, 0.01, 0.01] }.mesh(80)?;
+/// let spec = BodySpec { density: Some(1100.0), ..BodySpec::default() };
+/// let (body, added_mass) = bake_body(&ball, &spec, &())?;
+/// let settings = Settings { model: Model::Kirchhoff, ..Settings::default() };
+/// let stepper = Stepper::new(&body, &Fluid::WATER, None, &settings)?;
+/// let mut states = vec![State::default()];
 /// for _ in 0..50 {
 ///     let mut state = states[states.len() - 1];
-///     advance::advance(&scene, &stepper, &mut state, &NoiseStream { seed: 0, body: 0 })?;
+///     stepper.step(&mut state, 0.002, &NoiseStream::default())?;
 ///     states.push(state);
 /// }
+/// let bake = Bake {
+///     body,
+///     history: None,
+///     error_estimate: added_mass.error_estimate,
+///     warnings: vec![],
+///     fingerprint: [0; 32],
+/// };
+/// let conditions = Conditions {
+///     scene: "ball",
+///     fluid: &Fluid::WATER,
+///     settings: &settings,
+///     seed: 0,
+///     time_step: 0.002,
+/// };
 /// let fall = [Trajectory::new(0, &states)];
-/// let recording = Recording { scene: &scene, bake: &bake, trajectories: &fall };
+/// let recording = Recording { conditions, bake: &bake, trajectories: &fall };
 /// let folder = tempfile::tempdir()?;
 /// let deviation = write(&recording, Format::Glb, folder.path(), &Options::default())?;
 /// assert!(deviation.is_some_and(|s| s.position < 3e-5)); // of 3 mm fallen

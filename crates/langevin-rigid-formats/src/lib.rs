@@ -1,16 +1,10 @@
-//! Files of Langevin Rigid: what comes in (meshes, scenes) and what goes out (bakes, trajectories,
-//! animations, ensembles, regimes, pictures, added mass for other programs).
+//! Files of Langevin Rigid: what comes in (meshes) and what goes out (trajectories, animations, added
+//! mass for other programs), and what writes them whole or not at all.
 
 pub mod added_mass;
-pub mod advance;
-pub mod baking;
 pub mod budget;
-pub mod ensemble;
 pub mod export;
 pub mod files;
 pub mod mesh;
 pub mod motion;
-pub mod picture;
-pub mod regimes;
-pub mod scene;
 pub mod trajectory;

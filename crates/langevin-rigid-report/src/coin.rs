@@ -2,8 +2,8 @@
 
 use langevin_rigid::Model;
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::ensemble::{self, SAMPLES_PER_SECOND, Statistics, landings_csv};
-use langevin_rigid_formats::{baking, scene};
+use langevin_rigid_scenes::ensemble::{self, SAMPLES_PER_SECOND, Statistics, landings_csv};
+use langevin_rigid_scenes::{baking, scene};
 
 use crate::chart::{Chart, Curve};
 use crate::section::{Section, figure};

@@ -9,7 +9,7 @@ use langevin_rigid_bake::body::{BodySpec, bake_body};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::{FlowOptions, Sampling, turbulence_history};
-use langevin_rigid_formats::baking;
+use langevin_rigid_scenes::baking;
 use rayon::prelude::*;
 
 use crate::chart::{Chart, Curve};

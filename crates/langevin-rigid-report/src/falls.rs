@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use langevin_rigid::State;
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::picture::View;
 use langevin_rigid_formats::trajectory::{Trajectory, csv};
+use langevin_rigid_pictures::View;
 
 use crate::chart::{Chart, Curve};
 use crate::measures::{Axes, FIELDS, Field, Measures, Scale, norm};

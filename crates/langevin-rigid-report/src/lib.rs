@@ -28,10 +28,10 @@ use std::path::{Path, PathBuf};
 use langevin_rigid::SetupError;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::turbulence::TurbulenceError;
-use langevin_rigid_formats::baking::SceneBakeError;
 use langevin_rigid_formats::files::{self, WriteError};
-use langevin_rigid_formats::picture::PictureError;
-use langevin_rigid_formats::scene::FindError;
+use langevin_rigid_pictures::PictureError;
+use langevin_rigid_scenes::baking::SceneBakeError;
+use langevin_rigid_scenes::scene::FindError;
 
 pub use numbers::Numbers;
 pub use section::{Claim, Section};

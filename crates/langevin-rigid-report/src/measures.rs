@@ -5,7 +5,7 @@
 
 use langevin_rigid::linalg::{Vec3, eigen_symmetric, rotate};
 use langevin_rigid::{Body, State};
-use langevin_rigid_formats::ensemble::MotionTracker;
+use langevin_rigid_scenes::ensemble::MotionTracker;
 use std::f64::consts::{PI, TAU};
 
 /// What is too small to count as motion.

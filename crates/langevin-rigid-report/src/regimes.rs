@@ -1,8 +1,7 @@
 //! Beyond the paper: which plates flutter and which tumble, against experiments.
 
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::picture::regime_map;
-use langevin_rigid_formats::regimes::{self, Agreement, Plate};
+use langevin_rigid_scenes::regimes::{self, Agreement, Plate};
 
 use crate::section::Section;
 use crate::{Options, ReportError};
@@ -50,7 +49,7 @@ pub(crate) fn section(_: &Options, progress: &dyn Progress) -> Result<Section, R
         .into()
     })
     .collect();
-    let map = regime_map(&points, "Marks: the model. Colours: experiments.")?;
+    let map = regimes::regime_map(&points, "Marks: the model. Colours: experiments.")?;
     let figure = section.picture("map", &map, "Regimes over Reynolds number and inertia.")?;
     section.row(&[figure]);
     section.table(

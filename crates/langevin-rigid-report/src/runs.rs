@@ -7,12 +7,10 @@ use langevin_rigid::{
     Ending, Hull, Integrator, Model, NoiseStream, State, Stepper, TurbulenceSource, UnitSystem, run,
 };
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::advance::advance;
-use langevin_rigid_formats::baking::{self, Baked};
-use langevin_rigid_formats::picture::{
-    Picture, PictureOptions, Pose, Subject, View, trajectory_picture,
-};
-use langevin_rigid_formats::scene::{self, Scene};
+use langevin_rigid_pictures::{Picture, PictureOptions, Pose, Subject, View, trajectory_picture};
+use langevin_rigid_scenes::advance::advance;
+use langevin_rigid_scenes::baking::{self, Baked};
+use langevin_rigid_scenes::scene::{self, Scene};
 use rayon::prelude::*;
 
 use crate::{Options, ReportError};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use langevin_rigid_formats::picture::Picture;
+use langevin_rigid_pictures::Picture;
 
 use crate::ReportError;
 use crate::chart::{Chart, escape};

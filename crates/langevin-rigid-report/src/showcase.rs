@@ -1,9 +1,9 @@
 //! Beyond the paper: the scenes that are not the paper's, one picture each.
 
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::picture::View;
-use langevin_rigid_formats::scene::BUILT_IN;
 use langevin_rigid_formats::trajectory::{Trajectory, csv};
+use langevin_rigid_pictures::View;
+use langevin_rigid_scenes::scene::BUILT_IN;
 
 use crate::chart::escape;
 use crate::measures::{Axes, Measures, Scale};

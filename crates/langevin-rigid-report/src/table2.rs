@@ -7,7 +7,7 @@ use langevin_rigid_bake::added_mass::{self, added_mass};
 use langevin_rigid_bake::body::BodyBakeError;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::turbulence::{FlowOptions, turbulence_history};
-use langevin_rigid_formats::{baking, scene};
+use langevin_rigid_scenes::{baking, scene};
 
 use crate::chart::escape;
 use crate::runs::{CONSISTENT, SEPARATED, Setting};

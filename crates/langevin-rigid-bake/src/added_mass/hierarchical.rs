@@ -28,7 +28,7 @@ type Expansion = [Columns; TERMS];
 
 const EMPTY: Expansion = [NONE; TERMS];
 /// Most memory for the pairs of near leaves (bytes): twice what even meshes of the most triangles take.
-const MOST_BLOCKS: usize = 6_000_000_000;
+const MOST_BLOCKS: u64 = 6_000_000_000;
 
 /// The operator.
 pub(super) struct Hierarchical<'a> {
@@ -63,13 +63,13 @@ impl<'a> Hierarchical<'a> {
         progress: &'a dyn Progress,
     ) -> Result<Hierarchical<'a>, AddedMassError> {
         let clusters = Clusters::new(&panels.panels);
-        let entries: usize = clusters
+        let entries: u64 = clusters
             .near
             .iter()
-            .map(|pair| pair.map(|c| clusters.panels(c as usize).len()))
+            .map(|pair| pair.map(|c| clusters.panels(c as usize).len() as u64))
             .map(|[rows, columns]| rows * columns)
             .sum();
-        check_memory(entries * size_of::<f32>(), MOST_BLOCKS)?;
+        check_memory(entries * size_of::<f32>() as u64, MOST_BLOCKS)?;
         let mut neighbours = vec![Vec::new(); clusters.clusters.len()];
         for (block, &[a, b]) in clusters.near.iter().enumerate() {
             let block = block as u32;

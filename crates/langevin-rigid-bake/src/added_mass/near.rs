@@ -23,9 +23,9 @@ const GROUP: usize = 32;
 /// Pairs, both ways, whose moments are kept at a time.
 const BATCH: usize = 1 << 22;
 /// Most near pairs, both ways: even meshes of a million triangles have fewer.
-const MOST_PAIRS: usize = 120_000_000;
+const MOST_PAIRS: u64 = 120_000_000;
 /// What a pair takes: column and value, and the column again while pairs are found.
-const PAIR_BYTES: usize = 16;
+const PAIR_BYTES: u64 = 16;
 
 /// Near pairs of a mesh, each row sorted, the diagonal included.
 pub(super) struct NearPairs {
@@ -48,7 +48,7 @@ impl NearPairs {
                 cancel.check()?;
                 let row = near_row(a, panels, &groups, &runs);
                 let pairs = total.fetch_add(row.len(), Ordering::Relaxed) + row.len();
-                check_memory(pairs * PAIR_BYTES, MOST_PAIRS * PAIR_BYTES)?;
+                check_memory(pairs as u64 * PAIR_BYTES, MOST_PAIRS * PAIR_BYTES)?;
                 Ok(row)
             })
             .collect::<Result<_, AddedMassError>>()?;

@@ -164,7 +164,7 @@ pub enum AddedMassError {
     )]
     TooCrowded {
         /// The memory they may take (bytes).
-        limit: usize,
+        limit: u64,
     },
     /// The matrix is not positive: the surface is not that of a body.
     #[error(
@@ -179,7 +179,9 @@ pub enum AddedMassError {
     },
 }
 
-pub(super) fn check_memory(bytes: usize, limit: usize) -> Result<(), AddedMassError> {
+pub(super) fn check_memory(bytes: u64, limit: u64) -> Result<(), AddedMassError> {
+    // No allocation is larger, whatever the processor.
+    let limit = limit.min(isize::MAX as u64);
     if bytes > limit {
         Err(AddedMassError::TooCrowded { limit })
     } else {

@@ -227,6 +227,7 @@ impl Soup {
 }
 
 /// The surface without triangles that have no area or lie back to back.
+#[cfg(feature = "meshopt")]
 pub(super) fn without_remnants(
     vertices: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,

@@ -6,8 +6,8 @@
 //! straight body in uniform motion add up to the body. Slices overlap: a linear ramp leads from one
 //! to the next, which keeps first moments exact on any triangles.
 
-use langevin_rigid::{MOST_SLICES, Part};
 use langevin_rigid::linalg::{Mat3, Vec3, eigen_symmetric};
+use langevin_rigid::{MOST_SLICES, Part};
 
 use super::panels::{Panel, Panels};
 use crate::added_mass::AddedMass;

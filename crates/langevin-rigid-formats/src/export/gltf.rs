@@ -35,17 +35,17 @@ pub(super) fn glb(
     let deviation = animation.deviation(recording.trajectories);
     let mut file = File::default();
     let mesh = file.mesh(recording);
-    let animations = file.animation(&recording.scene.name, &animation);
+    let animations = file.animation(recording.conditions.scene, &animation);
     let [red, green, blue] = COLOUR;
     let document = json!({
         "asset": { "version": "2.0", "generator": concat!("Langevin Rigid ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
         "scenes": [{
-            "name": recording.scene.name,
+            "name": recording.conditions.scene,
             "nodes": (0..animation.tracks.len()).collect::<Vec<_>>(),
             "extras": { KEY: of_run(recording, Up::Y, fps, deviation) },
         }],
-        "nodes": nodes(&recording.scene.name, &animation.tracks),
+        "nodes": nodes(recording.conditions.scene, &animation.tracks),
         "meshes": [mesh],
         "materials": [{
             "name": "matt",
@@ -102,7 +102,7 @@ impl File {
         let normals = self.vectors(&corners.normals, Some(ARRAY_BUFFER));
         let indices = self.indices(&corners.triangles);
         json!({
-            "name": recording.scene.name,
+            "name": recording.conditions.scene,
             "primitives": [{
                 "attributes": { "POSITION": positions, "NORMAL": normals },
                 "indices": indices,

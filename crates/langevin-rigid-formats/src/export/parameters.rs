@@ -14,20 +14,20 @@ pub(super) fn of_run(
     fps: f64,
     deviation: Deviation,
 ) -> Map<String, Value> {
-    let scene = recording.scene;
+    let made = recording.conditions;
     object(json!({
-        "scene": scene.name,
+        "scene": made.scene,
         "version": env!("CARGO_PKG_VERSION"),
-        "model": scene.settings.model.to_string(),
-        "integrator": scene.settings.integrator.to_string(),
-        "turbulence": scene.settings.turbulence.to_string(),
-        "seed": scene.seed.to_string(),
+        "model": made.settings.model.to_string(),
+        "integrator": made.settings.integrator.to_string(),
+        "turbulence": made.settings.turbulence.to_string(),
+        "seed": made.seed.to_string(),
         "bodies": recording.trajectories.len(),
-        "time_step_s": scene.time_step,
-        "gravity_m_s2": up.vector(scene.settings.gravity),
-        "fluid_density_kg_m3": scene.fluid.density,
-        "fluid_kinematic_viscosity_m2_s": scene.fluid.viscosity,
-        "fluid_velocity_m_s": up.vector(scene.fluid.velocity),
+        "time_step_s": made.time_step,
+        "gravity_m_s2": up.vector(made.settings.gravity),
+        "fluid_density_kg_m3": made.fluid.density,
+        "fluid_kinematic_viscosity_m2_s": made.fluid.viscosity,
+        "fluid_velocity_m_s": up.vector(made.fluid.velocity),
         "frames_per_second": fps,
         "largest_position_error_m": deviation.position,
         "largest_rotation_error_rad": deviation.rotation,
@@ -36,7 +36,7 @@ pub(super) fn of_run(
 
 /// The body, in its own frame; matrices row by row, linear part first.
 pub(super) fn of_body(recording: &Recording<'_>) -> Map<String, Value> {
-    let (body, density) = (&recording.bake.body, recording.scene.fluid.density);
+    let (body, density) = (&recording.bake.body, recording.conditions.fluid.density);
     let added_mass: Vec<f64> = body
         .added_mass
         .as_flattened()

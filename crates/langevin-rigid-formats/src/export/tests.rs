@@ -5,24 +5,29 @@ use std::path::Path;
 
 use langevin_rigid::linalg::{quat_from_rotation_vector, rotate, rotate_back};
 use langevin_rigid::{Bake, State};
+use langevin_rigid_bake::body::{BodySpec, bake_body};
+use langevin_rigid_bake::shapes::Shape;
 use serde_json::Value;
 
 use super::*;
-use crate::baking::bake_scene;
 use crate::mesh::{LengthUnit, read_mesh};
 
-fn scene() -> (Scene, Bake) {
-    let text = r#"
-        fluid.preset = "water"
-        run = { time_step = 0.002, duration = 1.0, seed = 3 }
-        [body]
-        shape = "box"
-        size = [0.01, 0.02, 0.04]
-        density = 1100.0
-    "#;
-    let scene = Scene::parse("brick-7", "brick.toml", text).unwrap();
-    let bake = bake_scene(&scene, None, &()).unwrap().bake;
-    (scene, bake)
+fn brick() -> Bake {
+    let mesh = Shape::Box {
+        size: [0.01, 0.02, 0.04],
+    };
+    let spec = BodySpec {
+        density: Some(1100.0),
+        ..BodySpec::default()
+    };
+    let (body, added_mass) = bake_body(&mesh.mesh(1280).unwrap(), &spec, &()).unwrap();
+    Bake {
+        body,
+        history: None,
+        error_estimate: added_mass.error_estimate,
+        warnings: Vec::new(),
+        fingerprint: [0; 32],
+    }
 }
 
 /// A body that tumbles and swings for `seconds` at so many steps a second.
@@ -162,9 +167,15 @@ fn written(
     format: Format,
     fps: f64,
 ) -> Result<(tempfile::TempDir, Option<Deviation>), ExportError> {
-    let (scene, bake) = scene();
+    let bake = brick();
     let recording = Recording {
-        scene: &scene,
+        conditions: Conditions {
+            scene: "brick-7",
+            fluid: &Fluid::WATER,
+            settings: &Settings::default(),
+            seed: 3,
+            time_step: 0.002,
+        },
         bake: &bake,
         trajectories,
     };
@@ -240,7 +251,7 @@ fn an_end_that_is_hardly_off_a_frame_is_that_frame() {
 
 #[test]
 fn bodies_share_one_mesh_and_their_times() {
-    let (_, bake) = scene();
+    let bake = brick();
     let trajectories: Vec<Trajectory> = (0..5).map(|body| tumbling(body, 0.5, 100)).collect();
     let (folder, _) = written(&trajectories, Format::Glb, 60.0).unwrap();
     let path = folder.path().join("trajectory.glb");
@@ -257,7 +268,7 @@ fn bodies_share_one_mesh_and_their_times() {
 
 #[test]
 fn the_mesh_of_a_glb_is_the_body() {
-    let (_, bake) = scene();
+    let bake = brick();
     let still = Trajectory::new(0, &[State::default()]);
     let (folder, _) = written(&[still], Format::Glb, 60.0).unwrap();
     let path = folder.path().join("trajectory.glb");

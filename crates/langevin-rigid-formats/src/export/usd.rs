@@ -86,7 +86,7 @@ impl<'a> Layer<'a> {
              upAxis = \"{up}\"\n)\n\n\
              def Xform \"World\" (\n{data})\n{{\n",
             version = env!("CARGO_PKG_VERSION"),
-            scene = escaped(&self.recording.scene.name),
+            scene = escaped(self.recording.conditions.scene),
             up = self.options.up.to_string().to_uppercase(),
             data = custom_data(&run, 1),
         )
@@ -112,7 +112,7 @@ impl<'a> Layer<'a> {
              point3f[] points = {points}\n            \
              color3f[] primvars:displayColor = [{colour}]\n            \
              uniform token subdivisionScheme = \"none\"\n        }}\n    }}\n",
-            name = identifier(&self.recording.scene.name),
+            name = identifier(self.recording.conditions.scene),
             data = custom_data(&of_body(self.recording), 2),
             colour = tuple(&COLOUR),
             extent = list(extent.iter().map(|v| tuple(&v.map(single)))),
@@ -125,7 +125,7 @@ impl<'a> Layer<'a> {
 
     fn body(&self, track: &Track) -> String {
         let mut text = String::with_capacity(128 * track.positions.len());
-        let name = identifier(&self.recording.scene.name);
+        let name = identifier(self.recording.conditions.scene);
         let (metres, turns) = (self.decimals as usize, TURN_DECIMALS as usize);
         let first = self.frames.fps * self.frames.start;
         let codes = || track.numbers.iter().map(|number| first + number);

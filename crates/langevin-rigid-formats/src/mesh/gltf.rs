@@ -11,6 +11,7 @@ mod document;
 mod draco;
 mod expected;
 mod instancing;
+#[cfg(feature = "meshopt")]
 mod meshopt;
 mod node;
 mod skin;

@@ -6,7 +6,9 @@ use std::path::Path;
 
 use super::super::{ParseError, Place};
 use super::document::{Buffer, BufferView, Document, Meshopt};
-use super::{base64, beside, get, meshopt};
+#[cfg(feature = "meshopt")]
+use super::meshopt::decompress;
+use super::{base64, beside, get};
 
 /// Bytes that may be made of compressed and sparse data of any size.
 const ALWAYS_MADE: usize = 1 << 26;
@@ -60,7 +62,7 @@ impl<'a> Buffers<'a> {
     fn decompress(&self, packed: &Meshopt) -> Result<Vec<u8>, ParseError> {
         let bytes = self.part(packed.buffer, packed.byte_offset, packed.byte_length)?;
         self.charge(packed.count.checked_mul(packed.byte_stride))?;
-        meshopt::decompress(bytes, packed)
+        decompress(bytes, packed)
     }
 
     /// Counts bytes that will be made, refusing more than the bytes read account for.
@@ -112,6 +114,16 @@ impl<'a> Buffers<'a> {
         self.read.set(self.read.get().saturating_add(bytes.len()));
         Ok(bytes)
     }
+}
+
+/// The decoders are left out of this build.
+#[cfg(not(feature = "meshopt"))]
+fn decompress(_: &[u8], _: &Meshopt) -> Result<Vec<u8>, ParseError> {
+    Err(ParseError::Unsupported {
+        feature: "compression by meshoptimizer, in a build without the feature `meshopt`"
+            .to_owned(),
+        remedy: "build it with `meshopt`, or export it without compression",
+    })
 }
 
 fn once<T>(

@@ -204,7 +204,9 @@ pub(super) struct Meshopt {
     pub(super) byte_length: usize,
     pub(super) byte_stride: usize,
     pub(super) count: usize,
+    #[cfg(feature = "meshopt")]
     pub(super) mode: String,
+    #[cfg(feature = "meshopt")]
     pub(super) filter: Option<String>,
 }
 

@@ -5,8 +5,10 @@ use langevin_rigid_bake::shapes::Shape;
 
 use super::super::{MeshFormat, ParseError, RawMesh, parse_mesh};
 
+#[cfg(feature = "meshopt")]
 mod compressed;
 mod confined;
+#[cfg(feature = "meshopt")]
 mod damaged;
 mod features;
 mod proportion;
@@ -142,4 +144,15 @@ pub(super) fn glb(json: &str, data: &[u8]) -> Vec<u8> {
         out.extend(chunk);
     }
     out
+}
+
+#[cfg(not(feature = "meshopt"))]
+#[test]
+fn without_its_decoder_meshoptimizer_is_refused_by_name() {
+    let ball = include_bytes!("../../../tests/data/ball-meshopt.glb");
+    let refused = fault(ball);
+    assert!(
+        refused.contains("without the feature `meshopt`"),
+        "{refused}"
+    );
 }

@@ -1,0 +1,318 @@
+//! Pictures a person can look at: the body drawn at equal times along its path.
+//!
+//! [`trajectory_picture`] draws on the CPU, without display, graphics card or installed fonts, and
+//! gives the same bytes everywhere. Hidden surfaces go through a depth buffer; the two sides of
+//! the body have their own colours, so that a flip shows; the path darkens with time. A body that
+//! would be too small beside its path is magnified, and the caption says how much. [`Film`] draws
+//! the same as frames, [`regimes`] maps of kinds over two axes.
+//!
+//! It knows no science: it is given poses, triangles, numbers and words.
+
+mod axes;
+mod camera;
+mod canvas;
+mod film;
+mod font;
+mod hull;
+mod labels;
+mod layout;
+mod legend;
+mod numbers;
+mod palette;
+mod placement;
+mod raster;
+pub mod regimes;
+mod scene;
+mod shadows;
+#[cfg(test)]
+mod shapes;
+mod solid;
+mod strobe;
+mod vector;
+
+use canvas::Canvas;
+pub use film::Film;
+use hull::Hull;
+use langevin_rigid_formats::motion::{Motion, MotionError};
+use layout::Layout;
+use placement::Placement;
+use scene::Trail;
+use solid::Solid;
+
+pub use langevin_rigid_formats::motion::Pose;
+
+/// The body to draw.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// Vertices in the body frame, m.
+    pub vertices: &'a [[f64; 3]],
+    /// Vertex indices of each triangle, counterclockwise seen from outside. Open sheets and loose
+    /// triangles are drawn as well.
+    pub triangles: &'a [[u32; 3]],
+}
+
+/// Where the picture is seen from. All views are orthographic.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum View {
+    /// From +z: x to the right, y up.
+    Front,
+    /// From -x: z to the right, y up.
+    Side,
+    /// From +y: x to the right, z down.
+    Top,
+    /// From above, between +x and +z.
+    Iso,
+    /// [`View::Front`] and [`View::Side`] next to each other on one scale.
+    #[default]
+    FrontAndSide,
+}
+
+/// What to draw besides the body and its path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureOptions {
+    /// Width and height, pixels, each from 240 to 8192; `None` chooses a size that suits the
+    /// shape of the path (1000 x 640 to 1500 x 1640).
+    pub size: Option<[u32; 2]>,
+    /// Where the picture is seen from.
+    pub view: View,
+    /// Heading, one line.
+    pub title: Option<String>,
+    /// Height of level ground in the world frame, m; drawn where the motion comes near it.
+    pub ground: Option<f64>,
+    /// Most instants at which the body is drawn; fewer are where bodies would cover each other.
+    /// Zero draws the path alone.
+    pub max_instants: usize,
+    /// Time between two instants, s; `None` chooses the shortest at which bodies stay apart.
+    /// With a time given, bodies are drawn at all its multiples, up to 256 of them.
+    pub interval: Option<f64>,
+    /// Whether the path is drawn.
+    pub path: bool,
+}
+
+impl Default for PictureOptions {
+    /// Front and side view, size chosen, no title, no ground, the path and at most 32 instants.
+    fn default() -> Self {
+        Self {
+            size: None,
+            view: View::default(),
+            title: None,
+            ground: None,
+            max_instants: 32,
+            interval: None,
+            path: true,
+        }
+    }
+}
+
+/// Why there is no picture.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PictureError {
+    /// The poses are no motion.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The body has no surface.
+    #[error("the body has no triangles: give the mesh that was simulated")]
+    NoTriangles,
+    /// A vertex is not a finite point.
+    #[error("vertex {index} of the body is not a finite point within 1e12 m: check the mesh")]
+    BadVertex {
+        /// Its place among the vertices, from zero.
+        index: usize,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {index} of the body names a vertex beyond its {vertices}: check the mesh")]
+    BadTriangle {
+        /// Its place among the triangles, from zero.
+        index: usize,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// The picture is too small to hold anything, or too large.
+    #[error("a picture of {width} x {height} pixels cannot be drawn: ask for 240 to 8192 each way")]
+    Size {
+        /// Width asked for, pixels.
+        width: u32,
+        /// Height asked for, pixels.
+        height: u32,
+    },
+    /// The film cannot be divided into frames.
+    #[error(
+        "{fps} frames a second of {duration} s make no film: ask for a positive rate and at most \
+         {} frames",
+        Film::MOST_FRAMES
+    )]
+    FrameRate {
+        /// Frames a second asked for.
+        fps: f64,
+        /// Duration of the motion, s.
+        duration: f64,
+    },
+    /// The font that is part of this library cannot be read.
+    #[error("the built-in font cannot be read: this build is damaged, build it again")]
+    Font,
+    /// The picture cannot be put in the PNG format.
+    #[error("the picture cannot be encoded as PNG: {reason}")]
+    Encoding {
+        /// What the encoder said.
+        reason: String,
+    },
+}
+
+/// A finished picture, opaque.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    size: [u32; 2],
+    rgba: Vec<u8>,
+    times: Vec<f64>,
+    magnification: f64,
+}
+
+impl Picture {
+    /// Width, pixels.
+    pub fn width(&self) -> u32 {
+        self.size[0]
+    }
+
+    /// Height, pixels.
+    pub fn height(&self) -> u32 {
+        self.size[1]
+    }
+
+    /// Red, green, blue and opacity (always 255) of each pixel in sRGB, row by row from the top.
+    pub fn rgba(&self) -> &[u8] {
+        &self.rgba
+    }
+
+    /// The times at which the body is drawn, s.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// How many times larger the body is drawn than the path's scale makes it, 1 or more.
+    pub fn magnification(&self) -> f64 {
+        self.magnification
+    }
+
+    /// The picture as the bytes of a PNG file.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Encoding`] when memory runs out.
+    pub fn png(&self) -> Result<Vec<u8>, PictureError> {
+        let opaque: Vec<u8> = self
+            .rgba
+            .chunks_exact(4)
+            .flat_map(|p| [p[0], p[1], p[2]])
+            .collect();
+        self.encode(&opaque).map_err(|e| PictureError::Encoding {
+            reason: e.to_string(),
+        })
+    }
+
+    fn encode(&self, rgb: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.size[0], self.size[1]);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Balanced);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(rgb)?;
+        writer.finish()?;
+        Ok(bytes)
+    }
+}
+
+/// Draws the body at equal times along its path.
+///
+/// The time between drawn bodies is a round number, the shortest at which they mostly do not cover
+/// each other; between poses the motion is interpolated.
+///
+/// # Errors
+///
+/// [`PictureError`] names the first pose, vertex or triangle that cannot be drawn, an empty
+/// trajectory or mesh, and a size out of range.
+///
+/// # Example
+///
+/// ```
+/// use langevin_rigid_pictures::{PictureOptions, Pose, Subject, trajectory_picture};
+///
+/// let sheet = Subject {
+///     vertices: &[[-0.1, 0.0, -0.1], [0.1, 0.0, -0.1], [0.1, 0.0, 0.1], [-0.1, 0.0, 0.1]],
+///     triangles: &[[0, 2, 1], [0, 3, 2]],
+/// };
+/// let poses: Vec<Pose> = (0..=100)
+///     .map(|k| 0.01 * f64::from(k))
+///     .map(|time| Pose {
+///         time,
+///         position: [0.0, -4.905 * time * time, 0.0],
+///         orientation: [0.0, 0.0, 0.0, 1.0],
+///     })
+///     .collect();
+/// let options = PictureOptions {
+///     title: Some("A sheet in free fall".to_owned()),
+///     ..PictureOptions::default()
+/// };
+/// let picture = trajectory_picture(&sheet, &poses, &options)?;
+/// assert!(picture.times().len() > 2);
+/// assert!(picture.png()?.starts_with(b"\x89PNG"));
+/// # Ok::<(), langevin_rigid_pictures::PictureError>(())
+/// ```
+pub fn trajectory_picture(
+    subject: &Subject<'_>,
+    poses: &[Pose],
+    options: &PictureOptions,
+) -> Result<Picture, PictureError> {
+    let motion = Motion::new(poses)?;
+    let solid = Solid::new(subject)?;
+    let layout = Layout::new(&solid, &motion, options)?;
+    let instants = match options.interval {
+        Some(interval) => strobe::every(&motion, interval),
+        None => strobe::instants(&motion, options.max_instants, |times| {
+            crowded(&layout, &solid, &motion, times)
+        }),
+    };
+    let mut canvas = Canvas::new(layout.size)?;
+    let trail = if options.path {
+        Trail::Whole
+    } else {
+        Trail::None
+    };
+    for panel in &layout.panels {
+        axes::draw(&mut canvas, &layout, panel, &axes::Ticks::new(&layout));
+        scene::draw(
+            &mut canvas,
+            &layout,
+            panel,
+            &solid,
+            &motion,
+            &instants,
+            trail,
+        );
+    }
+    let words = legend::caption(&layout, &instants);
+    legend::draw_header(&mut canvas, &layout, options.title.as_deref(), &words);
+    legend::draw_legend(&mut canvas, &layout, &solid, &motion, options.path);
+    Ok(Picture {
+        size: layout.size,
+        rgba: canvas.into_rgba(),
+        times: instants.times,
+        magnification: layout.magnification,
+    })
+}
+
+/// Bodies in line with one view may be well apart in the other, so the clearest panel decides.
+fn crowded(layout: &Layout, solid: &Solid, motion: &Motion<'_>, times: &[f64]) -> bool {
+    layout.panels.iter().all(|panel| {
+        let hull = |t: &f64| {
+            layout
+                .view(panel, solid, &Placement::of(motion.at(*t)))
+                .hull()
+        };
+        let apart = 3.0 * layout.unit;
+        let hulls: Vec<Hull> = times.iter().map(|t| hull(t).grown(apart)).collect();
+        strobe::crowded(&hulls)
+    })
+}

@@ -1,0 +1,301 @@
+//! From a scene to its bake, made once and kept.
+
+use std::path::{Path, PathBuf};
+
+use langevin_rigid::linalg::Vec3;
+use langevin_rigid::{
+    Bake, Body, Fluid, Settings, SetupError, Stepper, TurbulenceHistory, TurbulenceSource,
+    falling_speed,
+};
+use langevin_rigid_bake::added_mass::Warning;
+use langevin_rigid_bake::body::{BodyBakeError, bake_body, could_be};
+use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_bake::shapes::ShapeError;
+use langevin_rigid_bake::turbulence::{FlowOptions, TurbulenceError, turbulence_history};
+use langevin_rigid_bake::{MeshError, TriMesh};
+use sha2::{Digest, Sha256};
+
+use crate::scene::{Geometry, Scene};
+use langevin_rigid_formats::files;
+use langevin_rigid_formats::mesh::{ReadError, read_mesh};
+
+/// Why a scene could not be baked.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneBakeError {
+    /// The mesh file could not be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The mesh is no body.
+    #[error("{source_name}: {error}")]
+    Mesh {
+        /// The file.
+        source_name: String,
+        /// What is wrong with it.
+        error: MeshError,
+    },
+    /// The shape is impossible.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// The body is impossible, or its added mass could not be computed.
+    #[error(transparent)]
+    Body(#[from] BodyBakeError),
+    /// The turbulence could not be computed.
+    #[error(transparent)]
+    Turbulence(#[from] TurbulenceError),
+    /// Body and fluid have the same density and the body is at rest: the stream has no speed.
+    #[error(
+        "the body neither falls nor moves (its density is the fluid's), so its turbulence has no inflow speed; give `inflow_speed` under [turbulence]"
+    )]
+    NoSpeed,
+}
+
+/// The closed mesh of a scene's body, and what the reader of its file had to say (see
+/// [`RawMesh::notices`](langevin_rigid_formats::mesh::RawMesh)).
+///
+/// # Errors
+/// See [`SceneBakeError`].
+pub fn mesh(scene: &Scene) -> Result<(TriMesh, Vec<String>), SceneBakeError> {
+    match &scene.body.geometry {
+        Geometry::Shape { shape, triangles } => Ok((shape.mesh(*triangles)?, Vec::new())),
+        Geometry::Mesh {
+            path,
+            unit,
+            thickness,
+        } => {
+            let mut raw = read_mesh(path, *unit)?;
+            let notices = std::mem::take(&mut raw.notices);
+            match thickness {
+                Some(t) => raw.sheet(*t),
+                None => raw.body(),
+            }
+            .map(|mesh| (mesh, notices))
+            .map_err(|error| SceneBakeError::Mesh {
+                source_name: path.display().to_string(),
+                error,
+            })
+        }
+    }
+}
+
+/// Whether the scene's turbulence source samples a precomputed history.
+pub fn needs_history(scene: &Scene) -> bool {
+    match scene.settings.turbulence {
+        TurbulenceSource::History => true,
+        TurbulenceSource::BodyDriven { wake_age } => wake_age > 0.0,
+    }
+}
+
+/// A bake, and whether it had been made before.
+#[derive(Debug, Clone)]
+pub struct Baked {
+    /// The bake.
+    pub bake: Bake,
+    /// What the reader of the mesh file had to say.
+    pub notices: Vec<String>,
+    /// Whether it came from the cache.
+    pub cached: bool,
+    /// Why the cache could not be read or written, if so; the bake is good all the same.
+    pub cache_trouble: Option<String>,
+}
+
+/// Bakes a scene, or takes its bake from the folder `cache` if nothing that it depends on has
+/// changed: mesh, choices and the code that bakes.
+///
+/// What is kept is not believed: its mass, shape and axes are computed again, and one that is damaged or does
+/// not fit is baked anew with a notice.
+///
+/// # Errors
+/// See [`SceneBakeError`]; trouble with the cache is none, it is reported in the result.
+pub fn bake_scene(
+    scene: &Scene,
+    cache: Option<&Path>,
+    progress: &dyn Progress,
+) -> Result<Baked, SceneBakeError> {
+    let (mesh, mut notices) = mesh(scene)?;
+    let fingerprint = fingerprint(scene, &mesh);
+    let place = cache.map(|folder| cache_file(folder, &fingerprint));
+    let kept = place.as_deref().map(|p| from_cache(p, fingerprint));
+    match kept {
+        Some(Ok(Some(bake))) if could_be(&bake.body, &mesh, &scene.body.spec) => {
+            return Ok(Baked {
+                bake,
+                notices,
+                cached: true,
+                cache_trouble: None,
+            });
+        }
+        None | Some(Ok(None)) => {}
+        Some(Err(reason)) => notices.push(distrusted(place.as_deref(), &reason)),
+        Some(Ok(Some(_))) => notices.push(distrusted(
+            place.as_deref(),
+            "its numbers are not those of this body",
+        )),
+    }
+    let bake = bake_mesh(scene, &mesh, fingerprint, progress)?;
+    let cache_trouble = place.and_then(|p| files::write(&p, &bake.to_bytes()).err());
+    let cache_trouble = cache_trouble.map(|e| e.to_string());
+    Ok(Baked {
+        bake,
+        notices,
+        cached: false,
+        cache_trouble,
+    })
+}
+
+fn distrusted(place: Option<&Path>, reason: &str) -> String {
+    let place = place.unwrap_or(Path::new("")).display();
+    format!("the kept bake `{place}` was not used ({reason}); the body was baked anew")
+}
+
+fn bake_mesh(
+    scene: &Scene,
+    mesh: &TriMesh,
+    fingerprint: [u8; 32],
+    progress: &dyn Progress,
+) -> Result<Bake, SceneBakeError> {
+    let (body, added_mass) = bake_body(mesh, &scene.body.spec, progress)?;
+    let history = if needs_history(scene) {
+        Some(history(scene, &body, progress)?)
+    } else {
+        None
+    };
+    // The small added mass along a thin sheet hardly matters to how it moves, whatever its accuracy.
+    let matters = |w: &&Warning| !matches!(w, Warning::ThinnerThanTriangles { .. });
+    let mut warnings: Vec<String> = added_mass
+        .warnings
+        .iter()
+        .filter(matters)
+        .map(ToString::to_string)
+        .collect();
+    if mesh.was_turned() {
+        warnings.push("the mesh was inside out; its triangles were turned".into());
+    }
+    Ok(Bake {
+        body,
+        history,
+        error_estimate: added_mass.error_estimate,
+        warnings,
+        fingerprint,
+    })
+}
+
+/// The turbulence history of a scene's body.
+///
+/// # Errors
+/// [`SceneBakeError::NoSpeed`] and [`SceneBakeError::Turbulence`].
+pub fn history(
+    scene: &Scene,
+    body: &Body,
+    progress: &dyn Progress,
+) -> Result<TurbulenceHistory, SceneBakeError> {
+    let speed = scene
+        .grid
+        .inflow_speed
+        .unwrap_or_else(|| characteristic_speed(scene, body));
+    if speed == 0.0 {
+        return Err(SceneBakeError::NoSpeed);
+    }
+    let length = scene
+        .settings
+        .turbulence_length
+        .unwrap_or_else(|| body.turbulence_length());
+    let mut options = FlowOptions::new(scene.grid.cells, scene.grid.cell.unwrap_or(length), speed);
+    options.sampling = scene.grid.sampling;
+    options.time_step = scene.grid.time_step.unwrap_or(options.time_step);
+    options.duration = scene.grid.duration.unwrap_or(options.duration);
+    Ok(turbulence_history(&options, progress)?)
+}
+
+/// The larger of the falling speed U0, Eq. (1), and the release speed relative to the fluid (m/s).
+pub fn characteristic_speed(scene: &Scene, body: &Body) -> f64 {
+    let released = scene.release.world_velocity();
+    let relative: Vec3 = std::array::from_fn(|i| released[i] - scene.fluid.velocity[i]);
+    let speed = relative.iter().map(|x| x * x).sum::<f64>().sqrt();
+    falling_speed(body, &scene.fluid, scene.settings.gravity).max(speed)
+}
+
+/// Reynolds number of the run, Eq. (1) with [`characteristic_speed`].
+pub fn reynolds(scene: &Scene, body: &Body) -> f64 {
+    characteristic_speed(scene, body) * body.length / scene.fluid.viscosity
+}
+
+/// The stepper of a baked scene.
+///
+/// # Errors
+/// See [`SetupError`].
+pub fn stepper(scene: &Scene, bake: &Bake) -> Result<Stepper, SetupError> {
+    let reynolds = scene
+        .settings
+        .reynolds
+        .unwrap_or_else(|| reynolds(scene, &bake.body));
+    let settings = Settings {
+        reynolds: Some(reynolds),
+        ..scene.settings
+    };
+    Stepper::new(&bake.body, &scene.fluid, bake.history.as_ref(), &settings)
+}
+
+fn cache_file(folder: &Path, fingerprint: &[u8; 32]) -> PathBuf {
+    let name: String = fingerprint[..16]
+        .iter()
+        .map(|b| format!("{b:02x}"))
+        .collect();
+    folder.join(format!("{name}.lrbake"))
+}
+
+/// A cached bake that is whole and of the right fingerprint; none if there is no such file.
+fn from_cache(place: &Path, fingerprint: [u8; 32]) -> Result<Option<Bake>, String> {
+    let bytes = match std::fs::read(place) {
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        bytes => bytes.map_err(|e| e.to_string())?,
+    };
+    let bake = Bake::from_bytes(&bytes).map_err(|e| e.to_string())?;
+    match bake.fingerprint == fingerprint {
+        true => Ok(Some(bake)),
+        false => Err("it is of something else".into()),
+    }
+}
+
+/// Hash of everything that a bake depends on: code and input.
+fn fingerprint(scene: &Scene, mesh: &TriMesh) -> [u8; 32] {
+    let mut hash = Sha256::new();
+    for code in [
+        "langevin-rigid",
+        langevin_rigid::VERSION,
+        env!("CARGO_PKG_VERSION"),
+        langevin_rigid_bake::SOURCES,
+    ] {
+        hash.update(code);
+        hash.update([0]);
+    }
+    for x in mesh.vertices().as_flattened() {
+        hash.update(x.to_le_bytes());
+    }
+    for v in mesh.triangles().as_flattened() {
+        hash.update(v.to_le_bytes());
+    }
+    // The debug form names every field and prints numbers so that they read back.
+    hash.update(format!(
+        "{:?} {} {}",
+        scene.body.spec,
+        mesh.is_smooth(),
+        mesh.was_turned()
+    ));
+    if needs_history(scene) {
+        let Fluid {
+            density, velocity, ..
+        } = scene.fluid;
+        let Settings {
+            gravity,
+            turbulence_length,
+            ..
+        } = scene.settings;
+        let released = scene.release.world_velocity();
+        hash.update(format!(
+            "{:?} {density} {velocity:?} {gravity:?} {turbulence_length:?} {released:?}",
+            scene.grid
+        ));
+    }
+    hash.finalize().into()
+}

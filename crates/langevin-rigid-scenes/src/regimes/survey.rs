@@ -1,0 +1,345 @@
+//! The falls of a grid of plates.
+
+use std::fmt::Write;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use langevin_rigid::linalg::quat_from_rotation_vector;
+use langevin_rigid::{
+    Body, Fluid, Input, Model, SeparatedFlow, Settings, SetupError, State, StepError, Stepper,
+};
+use langevin_rigid_bake::progress::Progress;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::plates::{Plate, terminal_speed};
+use super::published::Published;
+use crate::ensemble::{Motion, MotionTracker};
+
+/// Tilts of the release from level, degrees.
+pub const TILTS: [f64; 3] = [5.0, 15.0, 40.0];
+/// Range of Re.
+pub const REYNOLDS: [f64; 2] = [30.0, 30_000.0];
+
+/// Steps in the time d/U.
+const STEPS: f64 = 40.0;
+/// A fall lasts so many times d/U, and the same again in units of the distance m / (rho P_yy) over
+/// which a plate takes up speed: heavy ones are slow to settle.
+const FALL: [f64; 2] = [400.0, 40.0];
+/// Steps between two looks at whether to go on.
+const PATIENCE: u64 = 4096;
+
+/// Range of I* in the map: from little heavier than water to well into tumbling.
+pub fn inertia_ratios(plate: Plate) -> [f64; 2] {
+    match plate {
+        Plate::Disc => [0.002, 1.0],
+        Plate::Strip => [0.05, 20.0],
+    }
+}
+
+/// One release.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Case {
+    /// What falls.
+    pub plate: Plate,
+    /// Reynolds number on diameter or chord and [`terminal_speed`].
+    pub reynolds: f64,
+    /// I*.
+    pub inertia_ratio: f64,
+    /// Tilt of the release from level, about the z axis, degrees.
+    pub tilt: f64,
+}
+
+/// What became of a release.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// The release.
+    pub case: Case,
+    /// How it fell over the second half of its time; none if a step failed.
+    pub motion: Result<MotionTracker, StepError>,
+}
+
+impl Case {
+    /// A stepper for it, without turbulence, and its time step (s).
+    ///
+    /// # Errors
+    /// [`SetupError`] for a plate lighter than the fluid, or none.
+    fn stepper(&self, body: &Body) -> Result<(Stepper, f64), SetupError> {
+        let speed = terminal_speed(body);
+        let fluid = Fluid {
+            density: 1.0,
+            viscosity: speed / self.reynolds,
+            velocity: [0.0; 3],
+        };
+        let settings = Settings {
+            model: Model::Separated,
+            separated: SeparatedFlow {
+                turbulence_intensity: 0.0,
+                ..SeparatedFlow::default()
+            },
+            ..Settings::default()
+        };
+        let stepper = Stepper::new(body, &fluid, None, &settings)?;
+        Ok((stepper, 1.0 / (STEPS * speed)))
+    }
+
+    /// The body that falls.
+    pub fn body(&self) -> Body {
+        self.plate.body(self.inertia_ratio, self.plate.thickness())
+    }
+
+    /// The fall; `follow` gets every state of its second half. None if cancelled.
+    fn fall(
+        &self,
+        mut follow: impl FnMut(&State),
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<Option<Result<(), StepError>>, SetupError> {
+        let body = self.body();
+        let (stepper, time_step) = self.stepper(&body)?;
+        let starting = body.mass / body.separation.drag_area[1][1];
+        let half = (0.5 * STEPS * (FALL[0] + FALL[1] * starting)) as u64;
+        let mut state = State {
+            orientation: quat_from_rotation_vector([0.0, 0.0, self.tilt.to_radians()]),
+            ..State::default()
+        };
+        for step in 0..2 * half {
+            if step % PATIENCE == 0 && cancelled() {
+                return Ok(None);
+            }
+            if let Err(error) = stepper.step(&mut state, time_step, &Input::default()) {
+                return Ok(Some(Err(error)));
+            }
+            if step >= half {
+                follow(&state);
+            }
+        }
+        Ok(Some(Ok(())))
+    }
+
+    fn run(&self, cancelled: &dyn Fn() -> bool) -> Result<Option<Run>, SetupError> {
+        let mut tracker: Option<MotionTracker> = None;
+        let follow = |state: &State| match &mut tracker {
+            Some(tracker) => tracker.follow(state),
+            None => tracker = Some(MotionTracker::new([0.0, 1.0, 0.0], state)),
+        };
+        let ended = self.fall(follow, cancelled)?;
+        Ok(ended.zip(tracker).map(|(ended, tracker)| Run {
+            case: *self,
+            motion: ended.map(|()| tracker),
+        }))
+    }
+
+    /// The states of the second half of the fall, up to `lengths` diameters of path from the middle.
+    ///
+    /// # Errors
+    /// [`SetupError`] for a plate that cannot fall.
+    pub fn path(&self, lengths: f64) -> Result<Vec<State>, SetupError> {
+        let mut states: Vec<State> = Vec::new();
+        let mut travelled = 0.0;
+        let follow = |state: &State| {
+            if let Some(last) = states.last() {
+                let step = |i: usize| (state.position[i] - last.position[i]).powi(2);
+                travelled += (step(0) + step(1) + step(2)).sqrt();
+            }
+            if travelled <= lengths {
+                states.push(*state);
+            }
+        };
+        self.fall(follow, &|| false)?;
+        Ok(states)
+    }
+}
+
+/// `count` values from the first to the second, each the same factor above the one before.
+fn spaced([low, high]: [f64; 2], count: u32) -> impl Iterator<Item = f64> {
+    let step = libm::log(high / low) / f64::from(count - 1);
+    (0..count).map(move |k| low * libm::exp(step * f64::from(k)))
+}
+
+/// Every release of a grid of so many values of I* and Re, both at least two.
+pub fn cases(inertia_ratio_count: u32, reynolds_count: u32) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for plate in Plate::ALL {
+        for reynolds in spaced(REYNOLDS, reynolds_count.max(2)) {
+            for inertia_ratio in spaced(inertia_ratios(plate), inertia_ratio_count.max(2)) {
+                cases.extend(TILTS.map(|tilt| Case {
+                    plate,
+                    reynolds,
+                    inertia_ratio,
+                    tilt,
+                }));
+            }
+        }
+    }
+    cases
+}
+
+/// Runs every case, on all cores, with the model `separated` and no turbulence.
+///
+/// The runs come in the order of the cases, with the same bits on any number of threads. Of work that
+/// `progress` cancels, the runs that are complete are given.
+///
+/// # Errors
+/// [`SetupError`] of the first plate that cannot fall.
+pub fn run(cases: &[Case], progress: &dyn Progress) -> Result<Vec<Run>, SetupError> {
+    let done = AtomicUsize::new(0);
+    let runs: Vec<Option<Run>> = cases
+        .par_iter()
+        .with_max_len(1)
+        .map(|case| {
+            let run = case.run(&|| progress.cancelled());
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            progress.report("dropping", done as f64 / cases.len() as f64);
+            run
+        })
+        .collect::<Result<_, _>>()?;
+    Ok(runs.into_iter().flatten().collect())
+}
+
+/// The runs as a table, a row a run.
+pub fn csv(runs: &[Run]) -> String {
+    let mut table = String::from("plate,re,inertia_ratio,tilt,motion,turnovers,swings\n");
+    for Run { case, motion } in runs {
+        let (plate, re, ratio, tilt) = (
+            case.plate.name(),
+            case.reynolds,
+            case.inertia_ratio,
+            case.tilt,
+        );
+        // Writing to a string cannot fail.
+        let _ = match motion {
+            Ok(m) => writeln!(
+                table,
+                "{plate},{re},{ratio},{tilt},{},{},{}",
+                m.motion().name(),
+                m.turnovers(),
+                m.swings()
+            ),
+            Err(_) => writeln!(table, "{plate},{re},{ratio},{tilt},diverged,,"),
+        };
+    }
+    table
+}
+
+/// A point of the grid: what its releases did, and what was published.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Point {
+    /// What falls.
+    pub plate: Plate,
+    /// Reynolds number.
+    pub re: f64,
+    /// I*.
+    pub inertia_ratio: f64,
+    /// The motion from each tilt of [`TILTS`].
+    pub motions: [Motion; TILTS.len()],
+    /// What most of them are; where no two agree, the most disordered.
+    pub regime: Motion,
+    /// What experiments found.
+    pub published: Motion,
+    /// Whether the point is far enough from the published boundaries to be compared.
+    pub compared: bool,
+    /// Whether both regimes are the same.
+    pub agrees: bool,
+}
+
+impl Point {
+    fn new(case: &Case, motions: [Motion; TILTS.len()]) -> Self {
+        let published = Published::of(case.plate);
+        let expected = published.regime(case.reynolds, case.inertia_ratio);
+        let regime = majority(&motions);
+        Self {
+            plate: case.plate,
+            re: case.reynolds,
+            inertia_ratio: case.inertia_ratio,
+            motions,
+            regime,
+            published: expected,
+            compared: published.certain(case.reynolds, case.inertia_ratio),
+            agrees: regime == expected,
+        }
+    }
+}
+
+/// The most frequent motion; of equally frequent ones the most disordered, which `Motion` sorts last.
+fn majority(motions: &[Motion]) -> Motion {
+    let count = |m: &Motion| motions.iter().filter(|n| *n == m).count();
+    let best = Motion::ALL.into_iter().max_by_key(|m| (count(m), *m));
+    best.unwrap_or(Motion::Chaotic)
+}
+
+/// The points of the grid all of whose releases came to an end.
+pub fn points(runs: &[Run]) -> Vec<Point> {
+    let same = |a: &Run, b: &Run| {
+        let (a, b) = (&a.case, &b.case);
+        (a.plate, a.reynolds, a.inertia_ratio) == (b.plate, b.reynolds, b.inertia_ratio)
+    };
+    let point = |runs: &[Run]| {
+        let motions: Vec<Motion> = runs
+            .iter()
+            .filter_map(|r| r.motion.as_ref().ok().map(MotionTracker::motion))
+            .collect();
+        let motions = <[Motion; TILTS.len()]>::try_from(motions).ok()?;
+        Some(Point::new(&runs[0].case, motions))
+    };
+    runs.chunk_by(same).filter_map(point).collect()
+}
+
+/// How many of the compared points have the published regime.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Agreement {
+    /// Points far enough from a published boundary.
+    pub compared: usize,
+    /// Those among them that agree.
+    pub agreeing: usize,
+    /// Their share; none where nothing is compared.
+    pub agreement: Option<f64>,
+}
+
+impl Agreement {
+    /// Over these points.
+    pub fn of<'a>(points: impl Iterator<Item = &'a Point>) -> Self {
+        let (mut compared, mut agreeing) = (0, 0);
+        for point in points.filter(|p| p.compared) {
+            compared += 1;
+            agreeing += usize::from(point.agrees);
+        }
+        Self {
+            compared,
+            agreeing,
+            agreement: (compared > 0).then(|| agreeing as f64 / compared as f64),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_majority_decides_and_disorder_where_there_is_none() {
+        use Motion::{Chaotic, Flutter, Steady, Tumble};
+        assert_eq!(majority(&[Steady, Tumble, Steady]), Steady);
+        assert_eq!(majority(&[Steady, Tumble, Flutter]), Tumble);
+        assert_eq!(majority(&[Chaotic, Steady, Flutter]), Chaotic);
+    }
+
+    #[test]
+    fn the_grid_reaches_from_end_to_end() {
+        let cases = cases(10, 6);
+        assert_eq!(cases.len(), 2 * 10 * 6 * TILTS.len());
+        let last = cases[cases.len() - 1];
+        assert!((last.reynolds / 30_000.0 - 1.0).abs() < 1e-12);
+        assert!((last.inertia_ratio / 20.0 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_point_without_all_its_runs_is_none() {
+        let case = cases(2, 2)[0];
+        let run = |tilt: f64| Run {
+            case: Case { tilt, ..case },
+            motion: Ok(MotionTracker::new([0.0, 1.0, 0.0], &State::default())),
+        };
+        let runs: Vec<Run> = TILTS.into_iter().map(run).collect();
+        assert_eq!(points(&runs).len(), 1);
+        assert!(points(&runs[..2]).is_empty());
+    }
+}

@@ -1,0 +1,270 @@
+//! Scene files: what to simulate, as TOML in SI units and degrees.
+//!
+//! [`Scene::parse`] reads and checks one; what is wrong comes back with its line and column.
+//! [`Scene::to_toml`] writes the resolved scene, which reads back as the same scene.
+//! [`find`] opens a built-in scene by name or a file by path; [`BUILT_IN`] is their one registry.
+
+mod grid;
+mod place;
+mod quantity;
+mod raw;
+mod registry;
+mod release;
+mod run;
+mod seed;
+mod separated;
+mod shape;
+mod surroundings;
+#[cfg(test)]
+mod tests;
+
+use std::path::PathBuf;
+
+use langevin_rigid::{Fluid, Settings, State, StopAt};
+use langevin_rigid_bake::body::BodySpec;
+use langevin_rigid_bake::shapes::Shape;
+use langevin_rigid_bake::turbulence::Sampling;
+use serde_spanned::Spanned;
+
+use langevin_rigid_formats::export::Conditions;
+use langevin_rigid_formats::mesh::LengthUnit;
+use place::Document;
+pub use place::SceneError;
+use quantity::TIME_STEP;
+use raw::{RawFluid, RawPicture, RawRun, RawScatter, RawScene, RawTank, given};
+pub use registry::{BUILT_IN, BuiltIn, FindError, find};
+pub use run::StepsError;
+use seed::Seed;
+
+/// A scene, checked and complete.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Its name: that of a built-in scene, or the file's without ending.
+    pub name: String,
+    /// What it shows, in a line.
+    pub description: String,
+    /// The fluid.
+    pub fluid: Fluid,
+    /// The body.
+    pub body: BodySource,
+    /// Pose and velocities at release.
+    pub release: State,
+    /// How long the body is carried along at its release velocity before it is let go (s): fingers
+    /// that follow it, a gripper that opens late.
+    pub carried: f64,
+    /// Model, integrator, turbulence source and gravity.
+    pub settings: Settings,
+    /// Time step (s).
+    pub time_step: f64,
+    /// When the run ends.
+    pub stop: StopAt,
+    /// Seed of the noise.
+    pub seed: u64,
+    /// The grid of the turbulence history.
+    pub grid: Grid,
+    /// Time between two drawings of the body in a picture (s); the picture's choice if none.
+    pub picture_interval: Option<f64>,
+    /// How the releases of an ensemble differ from `release`.
+    pub scatter: Scatter,
+    /// Walls and floor around the release point, if any.
+    pub tank: Option<Tank>,
+}
+
+/// Standard deviations of the normal scatter of an ensemble's releases, one draw per run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Scatter {
+    /// Tilt about each of the world's horizontal axes x and z (degrees).
+    pub tilt: f64,
+    /// Each component of the angular velocity, world frame (rad/s).
+    pub spin: f64,
+    /// Each component of the velocity, world frame (m/s).
+    pub velocity: f64,
+}
+
+/// A tank whose water surface is at the height of the release point, which is above its middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tank {
+    /// Width along x, depth of the water, width along z (m).
+    pub size: [f64; 3],
+}
+
+impl Tank {
+    /// Height of the floor for a release at `position` (m).
+    pub fn floor(&self, position: [f64; 3]) -> f64 {
+        position[1] - self.size[1]
+    }
+}
+
+/// Where the body's surface and mass come from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodySource {
+    /// The surface.
+    pub geometry: Geometry,
+    /// Mass and characteristic sizes.
+    pub spec: BodySpec,
+}
+
+/// A body's surface.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Geometry {
+    /// A parametric body.
+    Shape {
+        /// Its shape.
+        shape: Shape,
+        /// Wished number of triangles.
+        triangles: usize,
+    },
+    /// A mesh file.
+    Mesh {
+        /// Path; relative ones start from the scene's folder.
+        path: PathBuf,
+        /// Unit of its coordinates; that of the format if none.
+        unit: Option<LengthUnit>,
+        /// Thickness that an open sheet is given (m).
+        thickness: Option<f64>,
+    },
+}
+
+/// The grid that the turbulence history is computed on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Cells along x, y, z; the stream runs along y.
+    pub cells: [usize; 3],
+    /// Cell size, which is the length l of the history (m); the body's own length if none.
+    pub cell: Option<f64>,
+    /// Inflow speed (m/s); the larger of U0, Eq. (1), and the release speed if none.
+    pub inflow_speed: Option<f64>,
+    /// Time step (s); the flow solver's choice if none.
+    pub time_step: Option<f64>,
+    /// Length of the history (s); the flow solver's choice if none.
+    pub duration: Option<f64>,
+    /// Where the turbulence is sampled.
+    pub sampling: Sampling,
+}
+
+/// Most steps of a run: each leaves some hundred bytes behind.
+pub const MAX_STEPS: u64 = 10_000_000;
+
+/// Why a scene cannot be written as TOML.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the scene cannot be written: {message}")]
+pub struct WriteSceneError {
+    /// What of it, and what to do.
+    pub message: String,
+}
+
+impl Scene {
+    /// Reads a scene from the text of a TOML file.
+    ///
+    /// ```
+    /// use langevin_rigid_scenes::scene::Scene;
+    /// let text = r#"
+    ///     fluid.preset = "water"
+    ///     run = { time_step = 0.002, duration = 1.0 }
+    ///     [body]
+    ///     shape = "ellipsoid"
+    ///     semi_axes = [0.01, 0.02, 0.04]
+    ///     density = -1100.0
+    /// "#;
+    /// let error = Scene::parse("ball", "ball.toml", text).unwrap_err();
+    /// assert_eq!((error.line, error.column), (7, 15));
+    /// ```
+    ///
+    /// # Errors
+    /// [`SceneError`] with line and column: syntax, unknown keys, missing or impossible values.
+    pub fn parse(name: &str, file: &str, text: &str) -> Result<Self, SceneError> {
+        let doc = Document { file, text };
+        let raw: RawScene = toml::from_str(text)
+            .map_err(|e| doc.error(e.span().unwrap_or(0..0), e.message().to_owned()))?;
+        let run = raw.run.get_ref();
+        let release = release::resolve(&doc, &raw.release)?;
+        let tank = surroundings::tank(&doc, raw.tank.as_ref())?;
+        let stop = run::stop(&doc, &raw.run, tank.map(|t| t.floor(release.position)))?;
+        run::check_height(&doc, run, &stop, release.position[1])?;
+        Ok(Self {
+            name: name.to_owned(),
+            description: raw.description.clone().unwrap_or_default(),
+            fluid: surroundings::fluid(&doc, &raw.fluid)?,
+            settings: Settings {
+                separated: separated::resolve(&doc, &raw.separated)?,
+                ..run::settings(&doc, run, &raw.turbulence)?
+            },
+            time_step: run::time_step(&doc, &raw.run, &stop)?,
+            seed: run.seed.as_ref().map_or(0, |seed| seed.get_ref().0),
+            grid: grid::resolve(&doc, &raw.turbulence)?,
+            picture_interval: doc.given(&raw.picture.interval, "interval", TIME_STEP)?,
+            scatter: release::scatter(&doc, &raw.scatter)?,
+            carried: release::carried(&doc, &raw.release)?,
+            // Last: it makes a mesh.
+            body: shape::resolve(&doc, &raw.body)?,
+            release,
+            stop,
+            tank,
+        })
+    }
+
+    /// What is said of its runs in files for other programs.
+    pub fn conditions(&self) -> Conditions<'_> {
+        Conditions {
+            scene: &self.name,
+            fluid: &self.fluid,
+            settings: &self.settings,
+            seed: self.seed,
+            time_step: self.time_step,
+        }
+    }
+
+    /// The scene as a TOML file, every choice spelled out.
+    ///
+    /// # Errors
+    /// [`WriteSceneError`], for a mesh whose path is not UTF-8.
+    pub fn to_toml(&self) -> Result<String, WriteSceneError> {
+        toml::to_string(&self.raw()?).map_err(|error| WriteSceneError {
+            message: error.to_string(),
+        })
+    }
+
+    fn raw(&self) -> Result<RawScene, WriteSceneError> {
+        Ok(RawScene {
+            description: Some(self.description.clone()),
+            fluid: Spanned::new(
+                0..0,
+                RawFluid {
+                    preset: None,
+                    density: given(self.fluid.density),
+                    viscosity: given(self.fluid.viscosity),
+                    velocity: given(self.fluid.velocity.to_vec()),
+                },
+            ),
+            body: Spanned::new(0..0, shape::write(&self.body)?),
+            release: release::write(&self.release, self.carried),
+            run: Spanned::new(
+                0..0,
+                RawRun {
+                    model: given(self.settings.model.to_string()),
+                    integrator: given(self.settings.integrator.to_string()),
+                    turbulence: given(self.settings.turbulence.to_string()),
+                    time_step: given(self.time_step),
+                    duration: self.stop.time.and_then(given),
+                    ground: self.stop.ground.and_then(given),
+                    seed: given(Seed(self.seed)),
+                    gravity: given(self.settings.gravity.to_vec()),
+                },
+            ),
+            turbulence: grid::write(&self.grid, self.settings.turbulence_length),
+            separated: separated::write(&self.settings.separated),
+            picture: RawPicture {
+                interval: self.picture_interval.and_then(given),
+            },
+            scatter: RawScatter {
+                tilt: given(self.scatter.tilt),
+                spin: given(self.scatter.spin),
+                velocity: given(self.scatter.velocity),
+            },
+            tank: self.tank.map(|tank| RawTank {
+                size: Spanned::new(0..0, tank.size.to_vec()),
+            }),
+        })
+    }
+}

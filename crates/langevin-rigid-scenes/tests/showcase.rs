@@ -1,0 +1,101 @@
+//! The showcase scenes fall like the things they are named after.
+//!
+//! A maple seed turns some tens of times a second around the vertical, with the wing a little above
+//! level, and sinks at the order of 1 m/s; shed as it is it must do so from every seed of the noise. A leaf wanders and turns, a feather takes
+//! its time. If the seed dives, its slices do not see their own velocities.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use langevin_rigid::linalg::rotate;
+use langevin_rigid::{Bake, NoiseStream, State};
+use langevin_rigid_scenes::scene::{Scene, find};
+use langevin_rigid_scenes::{advance::advance, baking};
+
+fn baked(name: &str) -> (Scene, Bake) {
+    let scene = find(name).unwrap();
+    let bake = baking::bake_scene(&scene, None, &()).unwrap().bake;
+    (scene, bake)
+}
+
+/// The states from the release to `seconds` later.
+fn fall(scene: &Scene, bake: &Bake, seed: u64, seconds: f64) -> Vec<State> {
+    let stepper = baking::stepper(scene, bake).unwrap();
+    let noise = NoiseStream { seed, body: 0 };
+    let mut states = vec![scene.release];
+    let mut state = scene.release;
+    while state.time < seconds {
+        advance(scene, &stepper, &mut state, &noise).unwrap();
+        states.push(state);
+    }
+    states
+}
+
+/// Mean over the last half of a fall.
+fn late(states: &[State], quantity: impl Fn(&State) -> f64) -> f64 {
+    let half = &states[states.len() / 2..];
+    half.iter().map(quantity).sum::<f64>() / half.len() as f64
+}
+
+fn sinking(states: &[State]) -> f64 {
+    late(states, |s| -s.world_velocity()[1])
+}
+
+#[test]
+fn a_maple_seed_spins_itself_down() {
+    let (scene, bake) = baked("maple-seed");
+    assert!(bake.body.parts.len() > 1);
+    for seed in 0..10 {
+        let states = fall(&scene, &bake, seed, 4.0);
+        let turns = late(&states, |s| s.world_angular_velocity()[1]) / std::f64::consts::TAU;
+        assert!(
+            (18.0..30.0).contains(&turns),
+            "seed {seed}: {turns} turns a second"
+        );
+        let speed = sinking(&states);
+        assert!((0.7..1.6).contains(&speed), "seed {seed}: {speed} m/s");
+        // The span points from the nut, which is inside, up and out.
+        let cone = late(&states, |s| {
+            rotate(s.orientation, [1.0, 0.0, 0.0])[1].asin()
+        });
+        let degrees = cone.to_degrees();
+        assert!(
+            (5.0..40.0).contains(&degrees),
+            "seed {seed}: cone of {degrees} degrees"
+        );
+    }
+}
+
+#[test]
+fn without_its_slices_the_seed_turns_but_now_and_then() {
+    let (scene, mut bake) = baked("maple-seed");
+    bake.body.parts.clear();
+    let states = fall(&scene, &bake, 0, 4.0);
+    let turns = late(&states, |s| s.world_angular_velocity()[1]) / std::f64::consts::TAU;
+    assert!(turns.abs() < 10.0, "{turns} turns a second");
+}
+
+#[test]
+fn leaves_and_feathers_wander_and_turn_on_their_way() {
+    // One fall among ten may be fast or slow by half: the middle one is the measure.
+    for (name, slow, fast) in [("leaf", 0.85, 1.3), ("feather", 0.4, 0.75)] {
+        let (scene, bake) = baked(name);
+        let mut speeds = Vec::new();
+        let mut apart = 0.0f64;
+        let mut first: Option<State> = None;
+        for seed in 0..10 {
+            let states = fall(&scene, &bake, seed, 2.0);
+            speeds.push(sinking(&states));
+            let up = |s: &State| rotate(s.orientation, [0.0, 1.0, 0.0])[1];
+            let least = states.iter().map(up).fold(1.0, f64::min);
+            assert!(least < 0.7, "{name} {seed} stays level: {least}");
+            let end = *states.last().unwrap();
+            let other = first.get_or_insert(end);
+            apart = apart.max((end.position[0] - other.position[0]).abs());
+        }
+        speeds.sort_by(f64::total_cmp);
+        let middle = speeds[5];
+        assert!((slow..fast).contains(&middle), "{name}: {middle} m/s");
+        let (least, most) = (speeds[0] / middle, speeds[9] / middle);
+        assert!(least > 0.3 && most < 3.0, "{name}: {speeds:?} m/s");
+        assert!(apart > 0.1, "{name}: all seeds within {apart} m");
+    }
+}
