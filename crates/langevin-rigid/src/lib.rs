@@ -1,19 +1,54 @@
 //! Run time of Langevin Rigid: light bodies immersed in air or water, in real time.
 //!
-//! A baked [`Body`] (mass properties and added mass) in a [`Fluid`] becomes a [`Stepper`], which
-//! advances a [`State`] by the generalized Kirchhoff equations with generalized Langevin loads
-//! (H. Xie and K. Miyata, "Langevin Rigid: Animating Immersed Rigid Bodies in Real-time", 2014).
-//! A step allocates nothing, and its noise is a pure function of (seed, body, step): the same run
-//! has the same bits on any number of threads and on every platform.
+//! Leaves flutter, coins tumble in water, sheets of paper drift, balloons follow the wind: rigid bodies whose way is
+//! made by the fluid around them. The generalized Kirchhoff equations with generalized Langevin loads (H. Xie and
+//! K. Miyata, "Langevin Rigid: Animating Immersed Rigid Bodies in Real-time", 2014) move them, with a closure for
+//! separated flow on top, and no grid or panel in sight.
 //!
-//! SI units throughout. The world is right-handed with +Y up; the body frame has its origin at the
-//! centre of mass; six-vectors have their linear part first; quaternions are `[x, y, z, w]`, body to
-//! world.
+//! It is no rigid-body engine: it knows no contacts, joints or bodies that meet, but takes their forces in a
+//! [`Wrench`]. It is no fluid solver either: the fluid is what [`Fluid`] and [`Flow`] say, and bodies do not
+//! stir it for one another. It opens no files, starts no threads and has no unsafe code.
 //!
-//! What is where, in the order of a step's data flow: [`Body`] and [`Bake`] come in, [`Turbulence`]
-//! gives the Langevin coefficients, [`NoiseStream`] the normals, [`Stepper`] moves the [`State`],
-//! [`run`] repeats it to the ground; a [`Batch`] of bodies
-//! steps in SIMD lanes.
+//! ```
+#![doc = include_str!("../examples/drop_a_leaf.rs")]
+//! ```
+//!
+//! # From a body to its path
+//!
+//! 1. A [`Body`] is its mass properties, its added mass and what separated flow depends on.
+//!    [`Body::sphere`], [`Body::plate`] and others make simple ones; a mesh is baked once, by the crate
+//!    `langevin-rigid-bake` or the command `langevin-rigid bake`, and read as a [`Bake`].
+//! 2. A [`Stepper`] is the body in a [`Fluid`] under [`Settings`]: which [`Model`], which [`Integrator`], which
+//!    [`TurbulenceSource`]. It is made once and may be shared by any number of bodies of that shape.
+//! 3. [`Stepper::step`] advances a [`State`] under an [`Input`]: the [`Flow`] and the [`Wrench`] of the moment, and the
+//!    [`NoiseStream`] of the body. [`run`] repeats it to the ground.
+//! 4. [`Batch`] has many bodies of one shape, which step in SIMD lanes, and in [`Pack`]s on any number of threads.
+//! 5. [`Stepper::loads`] tells what acts on the body, as [`Loads`] by cause.
+//!
+//! A step of any length is stable, allocates nothing and takes microseconds. What cannot be done is an error
+//! ([`SetupError`], [`StepError`], [`BatchError`]) which says what is wrong, and leaves the state as it was.
+//!
+//! # Conventions
+//!
+//! - SI units throughout, angles in radians.
+//! - The world is right-handed; +Y is up, unless [`Settings::gravity`] says otherwise.
+//! - The body frame has its origin at the centre of mass, and the axes of the mesh. Plates and discs have their thin
+//!   axis along y.
+//! - Vectors and matrices are plain arrays, matrices by rows; six-vectors have their linear part first.
+//! - Quaternions are `[x, y, z, w]` and turn body vectors into world vectors.
+//! - Velocities of a [`State`] are in the body frame, with [`State::world_velocity`] and its like to convert; forces,
+//!   torques and flows are in the world frame, torques about the centre of mass.
+//! - `gradient[i][j]` of a [`Flow`] is du_i/dx_j: a wind along x that grows with height has a positive
+//!   `gradient[0][1]`. Half its curl is the rate at which the fluid turns, counter-clockwise positive.
+//! - Added mass is per unit density of the fluid, positive where the fluid resists acceleration.
+//! - Noise is a pure function of (seed, body, step): the same run has the same bits on any number of threads, from a
+//!   saved state, and on every platform.
+//!
+//! # Modules
+//!
+//! Everything is at the root but two modules: [`linalg`], the rotations and small matrices that the types are
+//! written in, and [`turbulence`], the precomputed history and the coefficients of the Langevin equation.
+//! [`Wake`], [`stokes_translation`] and [`shift_added_mass`] are what the precomputation shares with the run time.
 
 mod bake;
 mod batch;
