@@ -29,6 +29,7 @@ use crate::linalg::{Mat3, Mat6, Vec3, cholesky, cross, eigen_symmetric};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Body {
     /// Mass m (kg).
     pub mass: f64,
@@ -57,6 +58,7 @@ pub struct Body {
 
 /// Tensors of the closure for separated flow, about the centroid of the volume, body axes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Separation {
     /// Drag areas P: a motion at v is resisted by 1/2 rho (v.P v) along P v (m^2).
     pub drag_area: Mat3,
@@ -70,6 +72,7 @@ pub struct Separation {
 
 /// A slice of a long body, in body axes: what the closure for separated flow needs of it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Part {
     /// Where its loads act, from the centre of mass (m).
     pub centre: Vec3,
@@ -85,6 +88,7 @@ pub struct Part {
 
 /// The surface of a body with its potentials of unit motion.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Surface {
     /// Vertex positions from the centre of mass (m); those of the given mesh first.
     pub vertices: Vec<Vec3>,

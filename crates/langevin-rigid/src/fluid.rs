@@ -4,6 +4,7 @@ use crate::linalg::Vec3;
 
 /// A homogeneous fluid, at rest or in uniform steady motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fluid {
     /// Density rho_f (kg/m^3).
     pub density: f64,

@@ -24,6 +24,8 @@ use crate::real::Real;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Input {
     /// The undisturbed fluid at the body.
     pub flow: Flow,
@@ -38,6 +40,8 @@ pub struct Input {
 /// The fluid pushes with (rho V + A) Du/Dt where it accelerates, so a wind that changes in time must say so in
 /// `acceleration`: a velocity that jumps from one step to the next passes by the added mass.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Flow {
     /// Velocity u at the centre of mass, world frame (m/s).
     pub velocity: Vec3,
@@ -52,6 +56,8 @@ pub struct Flow {
 
 /// A force and a torque.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Wrench {
     /// Force, world frame (N).
     pub force: Vec3,

@@ -49,6 +49,18 @@
 //! Everything is at the root but two modules: [`linalg`], the rotations and small matrices that the types are
 //! written in, and [`turbulence`], the precomputed history and the coefficients of the Langevin equation.
 //! [`Wake`], [`stokes_translation`] and [`shift_added_mass`] are what the precomputation shares with the run time.
+//!
+//! # Features
+//!
+//! None is on by default.
+//!
+//! - `mint`: poses, velocities, wrenches and flows to and from the types of any engine's algebra, in either precision:
+//!   `State::mint_pose`, `Wrench::from_mint` and their like. A single array needs none of it: it converts by
+//!   `mint::Vector3::from`.
+//! - `serde`: states, settings, bodies and inputs in files. Choices have the names that scenes give them, such as
+//!   `"separated"`; what [`Settings`], [`Input`] and the parts of these leave out has its default. Numbers keep their bits if the
+//!   format lets them: with `serde_json` by its feature `float_roundtrip`. JSON has no number that is not finite;
+//!   `serde_json` writes `null` and then refuses to read it. A body that was read is checked by [`Stepper::new`].
 
 mod bake;
 mod batch;
@@ -64,7 +76,11 @@ mod langevin;
 pub mod linalg;
 mod loads;
 mod mass_properties;
+#[cfg(feature = "mint")]
+mod mint;
 mod modes;
+#[cfg(feature = "serde")]
+mod names;
 mod noise;
 mod pace;
 mod published;

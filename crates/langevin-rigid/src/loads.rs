@@ -24,6 +24,7 @@ use crate::stepper::Stepper;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Loads {
     /// Gravity on the mass of the body.
     pub weight: Wrench,

@@ -19,6 +19,7 @@ pub const NORMALS_PER_STEP: usize = 12;
 /// assert_ne!(stream.normals(3), stream.normals(4));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoiseStream {
     /// Seed of the run.
     pub seed: u64,

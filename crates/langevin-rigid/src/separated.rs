@@ -23,6 +23,8 @@ use crate::shape::{Block, General, Shape};
 
 /// The constants of the closure, the same for all bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct SeparatedFlow {
     /// Attachment at small incidence. 1/2 gives a plate the lift slope pi and the normal force of
     /// thin-plate measurements; not fitted.

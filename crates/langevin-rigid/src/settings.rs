@@ -43,6 +43,8 @@ pub enum Integrator {
 /// # Ok::<(), langevin_rigid::UnknownName>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Settings {
     /// How the equations of motion are read.
     pub model: Model,

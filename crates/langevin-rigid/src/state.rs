@@ -4,6 +4,7 @@ use crate::linalg::{Quat, Vec3, add, cross, rotate, rotate_back};
 
 /// Pose and velocities of a body at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State {
     /// Time since release (s).
     pub time: f64,

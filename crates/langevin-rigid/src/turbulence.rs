@@ -12,6 +12,7 @@ pub const C_MU: f64 = 0.09;
 ///
 /// Computed once per scene by the k-epsilon model on a MAC grid (Xie & Miyata 2014, Algorithm 1).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TurbulenceHistory {
     /// Time between two entries (s).
     pub interval: f64,
