@@ -1,4 +1,5 @@
 //! Values in files, and back.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid::{
     Body, BodyError, Flow, Fluid, Input, Integrator, Loads, Model, NoiseStream, Part,
