@@ -157,6 +157,33 @@ impl<P: Precision> Batch<P> {
         pack.set(body % PACK, state);
     }
 
+    /// Adds a body with the noise of body `number` of the run. Its place is the last, and errors name its number.
+    pub fn push_numbered(&mut self, number: u32, state: &State) {
+        self.push(state);
+        let place = (self.len() - 1) % PACK;
+        if let Some(pack) = self.packs.last_mut() {
+            pack.bodies[place] = number;
+        }
+    }
+
+    /// Takes out the body in this place, which the last body takes, noise and all; gives its state, if there is such a body.
+    pub fn swap_remove(&mut self, place: usize) -> Option<State> {
+        let state = self.state(place)?;
+        let last = self.len() - 1;
+        let moved = self.state(last)?;
+        let number = self.packs[last / PACK].bodies[last % PACK];
+        self.set(place, &moved);
+        self.packs[place / PACK].bodies[place % PACK] = number;
+        let pack = &mut self.packs[last / PACK];
+        pack.taken -= 1;
+        // What is in no place rests.
+        pack.set(last % PACK, &State::default());
+        if pack.taken == 0 {
+            self.packs.pop();
+        }
+        Some(state)
+    }
+
     /// Number of bodies.
     pub fn len(&self) -> usize {
         match self.packs.split_last() {
