@@ -2,7 +2,7 @@
 
 use super::edges::{Side, by_edge, disagree, sorted_sides};
 use super::intersect::meetings;
-use super::parts::{components, fans, windings};
+use super::parts::{boxes, components, fans, windings};
 use super::vector::{add, bounding_box, cross, dot, norm, scale, sub};
 use super::{EdgeSite, MeshError, TriMesh};
 
@@ -188,16 +188,11 @@ pub(super) fn manifold_vertices(
 /// Checks that each component encloses something.
 pub(super) fn volumes(mesh: &TriMesh, root_of: &[usize], volumes: &[f64]) -> Result<(), MeshError> {
     let mut areas = vec![0.0; volumes.len()];
-    let mut bounds = vec![bounding_box(&[]); volumes.len()];
     for (t, &root) in root_of.iter().enumerate() {
         areas[root] += mesh.area(t);
-        let [low, high] = bounding_box(&mesh.corners(t));
-        for k in 0..3 {
-            bounds[root][0][k] = bounds[root][0][k].min(low[k]);
-            bounds[root][1][k] = bounds[root][1][k].max(high[k]);
-        }
     }
-    let size = |root: usize| sub(bounds[root][1], bounds[root][0]);
+    let boxes = boxes(&mesh.vertices, &mesh.triangles, root_of);
+    let size = |root: usize| sub(boxes[root][1], boxes[root][0]);
     let is_flat = |&root: &usize| {
         let encloses = volumes[root].abs() > FLAT * areas[root] * norm(size(root));
         root_of[root] == root && !encloses

@@ -409,6 +409,36 @@ fn each_part_must_enclose_something() {
     assert!(matches!(flat, Err(MeshError::ZeroVolume { .. })));
 }
 
+#[test]
+fn small_parts_are_measured_by_themselves_wherever_they_are() {
+    // Rounding gives what is flat a volume about a point far from its plane.
+    let flat = [
+        [0.0; 3],
+        [0.0, 1.0, 0.1],
+        [0.0, 0.3, 0.7],
+        [0.0, 0.37, 0.21],
+    ];
+    let flat_at = |x: f64| flat.map(|v| add(scale(3e-10, v), [x, 0.0, 0.0]));
+    let flats = two_tetrahedra_of(|v| *v = [flat_at(-1.1), flat_at(1.3)].concat());
+    assert!(matches!(flats, Err(MeshError::ZeroVolume { .. })));
+    // And hides the volume, and which way is out, of what is small.
+    for place in [
+        [70.0, 80.0, 90.0],
+        [-70.0, 80.0, 91.0],
+        [-71.0, -82.0, 93.0],
+    ] {
+        let speck = |v: &mut Vec<[f64; 3]>| {
+            v[4..].copy_from_slice(&CORNERS.map(|c| add(scale(1e-6, c), place)));
+        };
+        let beside = two_tetrahedra_of(speck).unwrap();
+        assert!(!beside.was_turned());
+        let mut inward = beside.triangles().to_vec();
+        inward[4..].iter_mut().for_each(|t| t.swap(0, 1));
+        let beside = TriMesh::new(beside.vertices().to_vec(), inward).unwrap();
+        assert_eq!(beside.turned, 4);
+    }
+}
+
 fn two_tetrahedra_of(change: impl FnOnce(&mut Vec<[f64; 3]>)) -> Result<TriMesh, MeshError> {
     tetrahedron_with(|v, t| {
         v.extend(CORNERS.map(|c| add(c, [-3.0, 0.0, 0.0])));
