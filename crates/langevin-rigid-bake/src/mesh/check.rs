@@ -11,6 +11,8 @@ use super::{EdgeSite, MeshError, TriMesh};
 const DEGENERATE: f64 = 1e-10;
 /// Volume over area times bounding-box diagonal, below which a closed surface is flat.
 const FLAT: f64 = 1e-10;
+/// Share of the volume that may be lost to rounding where parts are far apart.
+const LOST: f64 = 1e-3;
 /// Greatest deviation of RᵀR from the unit matrix in a transformation.
 const ORTHOGONAL: f64 = 1e-9;
 
@@ -204,6 +206,20 @@ pub(super) fn volumes(mesh: &TriMesh, root_of: &[usize], volumes: &[f64]) -> Res
             size: size(root),
         }),
     }
+}
+
+/// Checks that `displaced`, the sum over the parts (m³), is what integrals over all of the surface give.
+pub(super) fn resolved(mesh: &TriMesh, displaced: f64) -> Result<(), MeshError> {
+    let found = mesh.volume();
+    if (found - displaced).abs() <= LOST * displaced {
+        return Ok(());
+    }
+    let [low, high] = mesh.bounding_box();
+    Err(MeshError::PartsFarApart {
+        volume: displaced,
+        found,
+        size: sub(high, low),
+    })
 }
 
 /// Checks that no triangles pass through each other or lie on each other.

@@ -439,6 +439,36 @@ fn small_parts_are_measured_by_themselves_wherever_they_are() {
     }
 }
 
+#[test]
+fn parts_whose_volume_is_lost_to_rounding_are_no_body() {
+    let apart = |offset: [f64; 3]| {
+        two_tetrahedra_of(|v| v[4..].copy_from_slice(&CORNERS.map(|c| add(c, offset))))
+    };
+    let along = apart([1.0e7 / 3.0, 0.0, 0.0]).unwrap();
+    assert!((along.volume() - 1.0 / 3.0).abs() < 1e-6);
+    let across = apart([1.0e7 / 3.0, 1.0e7 / 7.0, 1.0e7 / 11.0]).unwrap_err();
+    let MeshError::PartsFarApart { volume, .. } = across else {
+        panic!("{across}");
+    };
+    assert!((volume - 1.0 / 3.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_body_of_any_size_has_a_volume() {
+    for power in -320..308 {
+        let size = 10f64.powi(power);
+        let sized = two_tetrahedra_of(|v| v.iter_mut().for_each(|v| *v = scale(size, *v)));
+        let within = (-80..=76).contains(&power);
+        match sized {
+            Ok(body) => assert!(
+                body.volume() > 0.0 && body.volume().is_finite(),
+                "1e{power}"
+            ),
+            Err(error) => assert!(!within, "1e{power}: {error}"),
+        }
+    }
+}
+
 fn two_tetrahedra_of(change: impl FnOnce(&mut Vec<[f64; 3]>)) -> Result<TriMesh, MeshError> {
     tetrahedron_with(|v, t| {
         v.extend(CORNERS.map(|c| add(c, [-3.0, 0.0, 0.0])));
