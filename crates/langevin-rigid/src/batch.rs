@@ -26,7 +26,7 @@ impl Precision for f64 {}
 impl Precision for f32 {}
 
 mod sealed {
-    use super::{Forced, Pack, StepError, Stepper};
+    use super::{ForcedOf, Pack, StepError, Stepper};
 
     /// What a precision must do.
     pub trait Sealed: Sized + 'static {
@@ -37,7 +37,7 @@ mod sealed {
             stepper: &Stepper,
             packs: &mut [Pack<Self>],
             dt: f64,
-            forced: &mut dyn FnMut(&Pack<Self>) -> Option<Forced<Self>>,
+            forced: &mut ForcedOf<'_, Self>,
             stopped: &mut Vec<(u32, StepError)>,
         );
     }
@@ -60,7 +60,7 @@ macro_rules! precision {
                 stepper: &Stepper,
                 packs: &mut [Pack<Self>],
                 dt: f64,
-                forced: &mut dyn FnMut(&Pack<Self>) -> Option<Forced<Self>>,
+                forced: &mut ForcedOf<'_, Self>,
                 stopped: &mut Vec<(u32, StepError)>,
             ) {
                 if stepper.symmetric.is_some() {
@@ -108,6 +108,11 @@ pub struct Pack<P = f64> {
     orientation: [[P; PACK]; 4],
     velocity: [[P; PACK]; 6],
 }
+
+/// The input of a body from its number and its state.
+pub(crate) type Inputs<'a> = dyn FnMut(u32, &State) -> Input + 'a;
+/// What acts on the bodies of a pack, if anything does.
+pub(crate) type ForcedOf<'a, P> = dyn FnMut(&Pack<P>) -> Option<Forced<P>> + 'a;
 
 /// What acts on the bodies of a pack over a step.
 pub struct Forced<P> {
@@ -267,7 +272,7 @@ impl<P: Precision> Pack<P> {
     /// One body after the other, in double precision.
     pub(crate) fn step_each(
         &mut self,
-        inputs: &mut dyn FnMut(u32, &State) -> Input,
+        inputs: &mut Inputs<'_>,
         stopped: &mut Vec<(u32, StepError)>,
         step: impl Fn(&mut State, &Input) -> Result<(), StepError>,
     ) {
@@ -335,7 +340,7 @@ fn step_packs<S: Simd, L: Lanes<S>, F: Shape>(
     stepper: &Stepper,
     packs: &mut [Pack<L::Scalar>],
     dt: f64,
-    forced: &mut dyn FnMut(&Pack<L::Scalar>) -> Option<Forced<L::Scalar>>,
+    forced: &mut ForcedOf<'_, L::Scalar>,
     stopped: &mut Vec<(u32, StepError)>,
 ) where
     L::Scalar: Precision,

@@ -1,6 +1,6 @@
 //! One body made ready to step: Algorithm 2.
 
-use crate::batch::{Batch, BatchError, Pack, Precision};
+use crate::batch::{Batch, BatchError, Inputs, Pack, Precision};
 use crate::body::{Body, BodyError};
 use crate::equations::{Equations, Loads, Noise, SPEED_LIMIT, Separated, is_unit, possible};
 use crate::fluid::Fluid;
@@ -360,7 +360,7 @@ impl Stepper {
         &self,
         packs: &mut [Pack<P>],
         dt: f64,
-        mut inputs: Option<&mut dyn FnMut(u32, &State) -> Input>,
+        mut inputs: Option<&mut Inputs<'_>>,
     ) -> Result<(), BatchError> {
         let mut stopped = Vec::new();
         match self.paper {

@@ -70,6 +70,14 @@ struct Falling {
     samples: Vec<Vec3>,
 }
 
+/// What becomes of a run while it is carried.
+enum Start {
+    /// It is let go in this state.
+    Free(Falling, State),
+    /// It ended before.
+    Over(Fall),
+}
+
 impl Setup<'_> {
     /// The falls of some runs, in their order; without those that were under way when it was cancelled. `done` hears of
     /// each that ended.
@@ -88,11 +96,11 @@ impl Setup<'_> {
         let mut falling = Vec::new();
         for &run in runs {
             match self.let_go(run) {
-                Ok((fall, state)) => {
+                Start::Free(fall, state) => {
                     batch.push_numbered(run, &state);
                     falling.push(fall);
                 }
-                Err(fall) => end(fall),
+                Start::Over(fall) => end(fall),
             }
         }
         let mut steps = 0u32;
@@ -140,8 +148,8 @@ impl Setup<'_> {
         }
     }
 
-    /// A run until it is in the batch: while it is carried it is alone. The fall itself where it ends there.
-    fn let_go(&self, run: u32) -> Result<(Falling, State), Fall> {
+    /// A run until it is let go: while it is carried it is in no batch.
+    fn let_go(&self, run: u32) -> Start {
         let scene = self.prepared.scene();
         let release = Release {
             state: scattered_release(scene, run),
@@ -158,15 +166,15 @@ impl Setup<'_> {
         };
         loop {
             if let Some(ending) = self.ending(&state) {
-                return Err(self.ended(fall, &state, ending));
+                return Start::Over(self.ended(fall, &state, ending));
             }
             if !is_carried(scene, &state) {
-                return Ok((fall, state));
+                return Start::Free(fall, state);
             }
             let before = state;
             if let Err(error) = advance(scene, self.prepared.stepper(), &release, &mut state) {
                 let ending = FallEnding::Diverged(error.to_string());
-                return Err(self.ended(fall, &state, ending));
+                return Start::Over(self.ended(fall, &state, ending));
             }
             self.follow(&mut fall, &before, &state);
         }
