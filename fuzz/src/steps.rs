@@ -11,6 +11,7 @@ use langevin_rigid_bake::body::{BodySpec, bake_body};
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_scenes::advance::advance;
 use langevin_rigid_scenes::baking::stepper;
+use langevin_rigid_scenes::prepared::Release;
 use langevin_rigid_scenes::scene::Scene;
 
 use crate::numbers::Numbers;
@@ -43,13 +44,16 @@ pub(crate) fn fall(bytes: &[u8], models: &[Model]) {
     };
     let stepper = stepper(&scene, &bake).unwrap();
     in_lanes(&scene, &stepper);
-    let noise = NoiseStream {
-        seed: scene.seed,
-        body: 0,
+    let release = Release {
+        state: scene.release,
+        noise: NoiseStream {
+            seed: scene.seed,
+            body: 0,
+        },
     };
-    let mut state = scene.release;
+    let mut state = release.state;
     for _ in 0..if absurd { FAST_STEPS } else { STEPS } {
-        match advance(&scene, &stepper, &mut state, &noise) {
+        match advance(&scene, &stepper, &release, &mut state) {
             Ok(()) => assert!(state.is_finite(), "{state:?}"),
             Err(error) => {
                 assert!(

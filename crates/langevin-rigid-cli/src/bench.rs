@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use anyhow::{Result, anyhow, bail};
 use langevin_rigid::turbulence::Turbulence;
-use langevin_rigid::{Batch, Integrator, Model, NoiseStream, Pack, Precision};
+use langevin_rigid::{Batch, Model, Pack, Precision};
 use langevin_rigid_bake::added_mass;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::{Boundary, MacGrid, TurbulentFlow};
-use langevin_rigid_scenes::{advance::advance, baking, scene};
+use langevin_rigid_scenes::{advance::advance, scene};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -126,18 +126,15 @@ pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
 /// Nanoseconds a step of a built-in scene's body.
 fn step(name: &'static str, model: Model, bars: &Bars) -> Result<f64> {
     let mut scene = scene::find(name)?;
-    scene.settings.model = model;
-    scene.settings.integrator = Integrator::default();
-    let baked = cache::bake(&scene, bars)?;
-    let stepper = baking::stepper(&scene, &baked.bake)?;
+    scene.set_model(model);
+    let prepared = cache::prepare(scene, bars)?;
+    let (scene, stepper) = (prepared.scene(), prepared.stepper());
     let seconds = median(REPEATS, name, bars, |repeat| {
-        let noise = NoiseStream {
-            seed: repeat as u64,
-            body: 0,
-        };
-        let mut state = scene.release;
+        let mut release = prepared.release(0);
+        release.noise.seed = repeat as u64;
+        let mut state = release.state;
         for _ in 0..STEPS {
-            advance(&scene, &stepper, &mut state, &noise)?;
+            advance(scene, stepper, &release, &mut state)?;
         }
         Ok(())
     })?;
@@ -147,10 +144,9 @@ fn step(name: &'static str, model: Model, bars: &Bars) -> Result<f64> {
 /// Nanoseconds a step of each of so many bodies, shared among `threads`.
 fn step_batch<P: Precision>(model: Model, bodies: u32, threads: usize, bars: &Bars) -> Result<f64> {
     let mut scene = scene::find(BODY)?;
-    scene.settings.model = model;
-    scene.settings.integrator = Integrator::default();
-    let baked = cache::bake(&scene, bars)?;
-    let stepper = baking::stepper(&scene, &baked.bake)?;
+    scene.set_model(model);
+    let prepared = cache::prepare(scene, bars)?;
+    let (scene, stepper) = (prepared.scene(), prepared.stepper());
     let steps = BODY_STEPS / bodies;
     let mut batch = Batch::<P>::new(0);
     for _ in 0..bodies {

@@ -1,9 +1,12 @@
 //! Where bakes are kept.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use anyhow::Result;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_scenes::baking::{Baked, SceneBakeError, bake_scene};
+use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene::Scene;
 
 use crate::say;
@@ -15,6 +18,12 @@ pub(crate) fn folder() -> Option<PathBuf> {
         .filter(|v| !v.is_empty())
         .map(PathBuf::from);
     named.or_else(|| Some(dirs::cache_dir()?.join("langevin-rigid")))
+}
+
+/// The scene made ready, its bake from the cache if it is there.
+pub(crate) fn prepare(scene: Scene, progress: &dyn Progress) -> Result<Prepared> {
+    let baked = bake(&scene, progress)?;
+    Ok(Prepared::of(scene, Arc::new(baked))?)
 }
 
 /// The scene's bake, from the cache if it is there.

@@ -7,14 +7,12 @@ use anyhow::{Result, bail};
 use langevin_rigid::{Batch, BatchError, Stepper};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::budget::Need;
-use langevin_rigid_scenes::baking;
 use langevin_rigid_scenes::scene::{self, Scene};
 use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::arguments::Crowd;
 use crate::bars::Bars;
-use crate::simulate::set_model;
 use crate::{cache, forecast, say};
 
 const FRAMES_PER_SECOND: f64 = 60.0;
@@ -40,15 +38,17 @@ struct Report {
 
 pub(crate) fn crowd(options: &Crowd, bars: &Bars) -> Result<()> {
     let mut scene = scene::find(&options.scene)?;
-    set_model(options.model, &mut scene);
-    let baked = cache::bake(&scene, bars)?;
-    let stepper = baking::stepper(&scene, &baked.bake)?;
+    if let Some(model) = options.model {
+        scene.set_model(model);
+    }
+    let prepared = cache::prepare(scene, bars)?;
+    let (scene, stepper) = (prepared.scene(), prepared.stepper());
     forecast(options, scene.time_step)?;
     let mut batch = Batch::<f64>::new(scene.seed);
     for _ in 0..options.bodies {
         batch.push(&scene.release);
     }
-    let mut spent = bars.stoppable(|| frames(options, &scene, &stepper, &mut batch, bars))?;
+    let mut spent = bars.stoppable(|| frames(options, scene, stepper, &mut batch, bars))?;
     bars.clear();
     if spent.is_empty() {
         bail!("interrupted before the first frame");

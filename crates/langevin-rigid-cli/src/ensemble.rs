@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Result, bail};
+use langevin_rigid::Body;
 use langevin_rigid::linalg::Vec3;
-use langevin_rigid::{Body, Hull};
 use langevin_rigid_formats::budget::Need;
 use langevin_rigid_formats::files::{self, Claim};
-use langevin_rigid_scenes::baking::{self, Baked};
+use langevin_rigid_scenes::baking::Baked;
 use langevin_rigid_scenes::ensemble::{
     self, Fall, FallEnding, SAMPLES_PER_SECOND, Statistics, landings_csv,
 };
@@ -18,8 +18,7 @@ use serde::Serialize;
 
 use crate::arguments::Ensemble;
 use crate::bars::Bars;
-use crate::falls::check_start;
-use crate::simulate::{resolved, set_model};
+use crate::simulate::resolved;
 use crate::{cache, forecast, say};
 
 /// `statistics.json`; SI units.
@@ -51,7 +50,9 @@ struct Seconds {
 pub(crate) fn ensemble(options: &Ensemble, bars: &Bars) -> Result<()> {
     let mut scene = scene::find(&options.scene)?;
     scene.seed = options.seed.unwrap_or(scene.seed);
-    set_model(options.model, &mut scene);
+    if let Some(model) = options.model {
+        scene.set_model(model);
+    }
     let folder = options
         .out
         .clone()
@@ -59,22 +60,21 @@ pub(crate) fn ensemble(options: &Ensemble, bars: &Bars) -> Result<()> {
 
     let _claim = Claim::folder(&folder)?;
     let started = Instant::now();
-    let baked = cache::bake(&scene, bars)?;
+    let prepared = cache::prepare(scene, bars)?;
     let bake = started.elapsed().as_secs_f64();
-    let body = &baked.bake.body;
-    let stepper = baking::stepper(&scene, &baked.bake)?;
-    check_start(&scene, &baked, &Hull::new(&body.surface.vertices))?;
-    forecast(&scene, body, options.runs)?;
+    let (scene, baked) = (prepared.scene(), prepared.baked());
+    prepared.check_release()?;
+    forecast(scene, prepared.body(), options.runs)?;
 
     let started = Instant::now();
-    let falls = bars.stoppable(|| ensemble::run(&scene, body, &stepper, options.runs, bars));
+    let falls = bars.stoppable(|| ensemble::run(&prepared, 0..options.runs, bars));
     let run = started.elapsed().as_secs_f64();
     bars.clear();
     if falls.is_empty() {
         bail!("no run came to an end");
     }
-    let report = report(options, &scene, &baked, &falls, Seconds { bake, run });
-    write_all(&folder, &scene, &falls, &report)?;
+    let report = report(options, scene, baked, &falls, Seconds { bake, run });
+    write_all(&folder, scene, &falls, &report)?;
     tell(options, &folder, &report)?;
     if report.diverged == falls.len() {
         bail!(

@@ -10,7 +10,6 @@ mod check;
 mod crowd;
 mod ensemble;
 mod export;
-mod falls;
 mod forecast;
 mod meshes;
 mod pictures;

@@ -5,18 +5,18 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context as _, Result, bail};
-use langevin_rigid::{Hull, Integrator, Model};
+use langevin_rigid_formats::budget;
 use langevin_rigid_formats::export::{self, ExportError, Format, Options, Recording};
 use langevin_rigid_formats::files;
 use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::Trajectory;
 use langevin_rigid_pictures::Film;
-use langevin_rigid_scenes::baking::{self, Baked};
+use langevin_rigid_scenes::baking::Baked;
+use langevin_rigid_scenes::prepared::Fall;
 use langevin_rigid_scenes::scene::{self, Scene};
 
 use crate::arguments::Simulate;
 use crate::bars::Bars;
-use crate::falls::{Fall, check_start, drop_bodies};
 use crate::pictures::{self, Shot};
 use crate::summary::Summary;
 use crate::{cache, forecast, say};
@@ -35,19 +35,19 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
 
     let _claims = claims(options, &folder)?;
     let started = Instant::now();
-    let baked = cache::bake(&scene, bars)?;
+    let prepared = cache::prepare(scene, bars)?;
     let bake_seconds = started.elapsed().as_secs_f64();
-    let stepper = baking::stepper(&scene, &baked.bake)?;
-    let hull = Hull::new(&baked.bake.body.surface.vertices);
-    check_start(&scene, &baked, &hull)?;
-    forecast(options, &scene, &baked)?;
+    let (scene, baked) = (prepared.scene(), prepared.baked());
+    prepared.check_release()?;
+    forecast(options, scene, baked)?;
 
     let started = Instant::now();
-    let work = || drop_bodies(&scene, &baked, &stepper, &hull, options.bodies, bars);
-    let falls = bars.stoppable(work);
+    let most = budget::spare() / (u64::from(options.bodies) * forecast::STATE as u64);
+    let most = usize::try_from(most).unwrap_or(usize::MAX);
+    let falls = bars.stoppable(|| prepared.drop_side_by_side(options.bodies, most, bars));
     let run_seconds = started.elapsed().as_secs_f64();
 
-    let mut summary = Summary::new(&scene, &baked, &stepper, &falls);
+    let mut summary = Summary::new(&prepared, &falls);
     summary
         .warnings
         .extend(missing(options.bodies, falls.len()));
@@ -55,14 +55,17 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     summary.seconds.run = run_seconds;
     let steps: usize = falls.iter().map(|fall| fall.states.len() - 1).sum();
     summary.seconds.per_step = run_seconds / steps.max(1) as f64;
-    let trajectories: Vec<Trajectory> = falls.iter().map(Fall::trajectory).collect();
-    let shot = Shot::new(options, &scene, &baked, &trajectories[0].poses);
+    let trajectories: Vec<Trajectory> = falls
+        .iter()
+        .map(|fall| Trajectory::new(fall.body, &fall.states))
+        .collect();
+    let shot = Shot::new(options, scene, baked, &trajectories[0].poses);
     let run = Recording {
         conditions: scene.conditions(),
         bake: &baked.bake,
         trajectories: &trajectories,
     };
-    let formats = write_all(options, &folder, &scene, &run, &shot, &mut summary)?;
+    let formats = write_all(options, &folder, scene, &run, &shot, &mut summary)?;
     let film = match &options.frames {
         Some(folder) => {
             let work = || pictures::film(&shot, folder, options.fps, bars);
@@ -161,17 +164,8 @@ fn apply(options: &Simulate, scene: &mut Scene) {
     scene.time_step = options.dt.unwrap_or(scene.time_step);
     scene.stop.time = options.duration.or(scene.stop.time);
     scene.settings.turbulence = options.turbulence.unwrap_or(scene.settings.turbulence);
-    set_model(options.model, scene);
-}
-
-/// Another model than the scene's brings the integrator it is meant for.
-pub(crate) fn set_model(model: Option<Model>, scene: &mut Scene) {
-    if let Some(model) = model.filter(|m| *m != scene.settings.model) {
-        scene.settings.model = model;
-        scene.settings.integrator = match model {
-            Model::Published(_) => Integrator::RungeKutta4,
-            _ => Integrator::default(),
-        };
+    if let Some(model) = options.model {
+        scene.set_model(model);
     }
 }
 

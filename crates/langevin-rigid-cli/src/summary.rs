@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 
 use langevin_rigid::{Body, State, Stepper};
 use langevin_rigid_formats::export::{Deviation, Format};
-use langevin_rigid_scenes::baking::{Baked, reynolds};
+use langevin_rigid_scenes::baking::Baked;
+use langevin_rigid_scenes::prepared::{Fall, Prepared};
 use langevin_rigid_scenes::scene::Scene;
 use serde::Serialize;
-
-use crate::falls::Fall;
 
 /// `summary.json`; SI units. Of several bodies the numbers are the first one's, unless they say otherwise.
 #[derive(Debug, Serialize)]
@@ -70,8 +69,9 @@ pub(crate) struct Seconds {
 
 impl Summary {
     /// Of a run, which has one body or more.
-    pub(crate) fn new(scene: &Scene, baked: &Baked, stepper: &Stepper, falls: &[Fall]) -> Self {
-        let body = &baked.bake.body;
+    pub(crate) fn new(prepared: &Prepared, falls: &[Fall]) -> Self {
+        let (scene, baked) = (prepared.scene(), prepared.baked());
+        let (body, stepper) = (prepared.body(), prepared.stepper());
         let states = &falls[0].states;
         let mut endings = BTreeMap::new();
         for fall in falls {
@@ -98,7 +98,7 @@ impl Summary {
             mass: body.mass,
             volume: body.volume,
             u0: langevin_rigid::falling_speed(body, &scene.fluid, scene.settings.gravity),
-            re: reynolds(scene, body),
+            re: stepper.reynolds(),
             terminal_speed: terminal_speed(states),
             energy: energy(scene, baked, stepper, first, last),
             added_mass_error_estimate: baked.bake.error_estimate,

@@ -3,7 +3,8 @@
 use langevin_rigid::Model;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_scenes::ensemble::{self, SAMPLES_PER_SECOND, Statistics, landings_csv};
-use langevin_rigid_scenes::{baking, scene};
+use langevin_rigid_scenes::prepared::Prepared;
+use langevin_rigid_scenes::scene;
 
 use crate::chart::{Chart, Curve};
 use crate::section::{Section, figure};
@@ -16,10 +17,9 @@ pub(crate) fn section(options: &Options, progress: &dyn Progress) -> Result<Sect
     let mut scene = scene::find("coin")?;
     scene.seed = options.first_seed;
     scene.settings.model = Model::Separated;
-    let baked = baking::bake_scene(&scene, options.cache.as_deref(), progress)?;
-    let stepper = baking::stepper(&scene, &baked.bake)?;
+    let prepared = Prepared::new(scene, options.cache.as_deref(), progress)?;
     let runs = options.seeds.saturating_mul(DROPS_PER_SEED);
-    let falls = ensemble::run(&scene, &baked.bake.body, &stepper, runs, progress);
+    let falls = ensemble::run(&prepared, 0..runs, progress);
     if progress.cancelled() {
         return Err(ReportError::Cancelled);
     }

@@ -390,7 +390,7 @@ fn reynolds(
     section.heading("The Reynolds number of the sheet");
     let setting = Setting::new("paper-75", options, progress)?;
     let body = &setting.baked.bake.body;
-    let here = baking::reynolds(&setting.scene, body);
+    let here = setting.stepper(&CONSISTENT)?.reynolds();
     let speed = baking::characteristic_speed(&setting.scene, body);
     let speed = section.quote("reynolds.speed", speed, 3);
     let printed = section.quote("reynolds.paper", paper::SHEET_REYNOLDS, 2);

@@ -31,6 +31,7 @@ use langevin_rigid_bake::turbulence::TurbulenceError;
 use langevin_rigid_formats::files::{self, WriteError};
 use langevin_rigid_pictures::PictureError;
 use langevin_rigid_scenes::baking::SceneBakeError;
+use langevin_rigid_scenes::prepared::PrepareError;
 use langevin_rigid_scenes::scene::FindError;
 
 pub use numbers::Numbers;
@@ -144,6 +145,15 @@ pub enum ReportError {
     /// The caller's [`Progress`] asked to stop.
     #[error("the report was cancelled")]
     Cancelled,
+}
+
+impl From<PrepareError> for ReportError {
+    fn from(error: PrepareError) -> Self {
+        match error {
+            PrepareError::Bake(error) => Self::Bake(error),
+            PrepareError::Setup(error) => Self::Setup(error),
+        }
+    }
 }
 
 /// A report on disk.

@@ -1,15 +1,13 @@
 //! Runs of one scene under the readings of the paper, over many seeds.
 
-use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use langevin_rigid::{
-    Ending, Hull, Integrator, Model, NoiseStream, State, Stepper, TurbulenceSource, UnitSystem, run,
-};
+use langevin_rigid::{Ending, Model, State, Stepper, TurbulenceSource, UnitSystem};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_pictures::{Picture, PictureOptions, Pose, Subject, View, trajectory_picture};
-use langevin_rigid_scenes::advance::advance;
 use langevin_rigid_scenes::baking::{self, Baked};
+use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene::{self, Scene};
 use rayon::prelude::*;
 
@@ -80,10 +78,7 @@ impl Reading {
     pub(crate) fn applied(&self, mut scene: Scene) -> Scene {
         scene.settings.model = self.model;
         scene.settings.turbulence = self.source;
-        scene.settings.integrator = match self.model {
-            Model::Published(_) => Integrator::RungeKutta4,
-            _ => Integrator::Strang,
-        };
+        scene.settings.integrator = self.model.integrator();
         scene
     }
 }
@@ -91,8 +86,7 @@ impl Reading {
 /// A built-in scene with its bake.
 pub(crate) struct Setting {
     pub(crate) scene: Scene,
-    pub(crate) baked: Baked,
-    hull: Hull,
+    pub(crate) baked: Arc<Baked>,
 }
 
 impl Setting {
@@ -118,13 +112,17 @@ impl Setting {
 
     fn of(scene: Scene, options: &Options, progress: &dyn Progress) -> Result<Self, ReportError> {
         let baked = baking::bake_scene(&scene, options.cache.as_deref(), progress)?;
-        let hull = Hull::new(&baked.bake.body.surface.vertices);
-        Ok(Self { scene, baked, hull })
+        let baked = Arc::new(baked);
+        Ok(Self { scene, baked })
+    }
+
+    fn under(&self, reading: &Reading) -> Result<Prepared, ReportError> {
+        let scene = reading.applied(self.scene.clone());
+        Ok(Prepared::of(scene, Arc::clone(&self.baked))?)
     }
 
     pub(crate) fn stepper(&self, reading: &Reading) -> Result<Stepper, ReportError> {
-        let scene = reading.applied(self.scene.clone());
-        Ok(baking::stepper(&scene, &self.baked.bake)?)
+        Ok(self.under(reading)?.stepper().clone())
     }
 
     /// A fall for each seed, in the order of the seeds. Kirchhoff's equations have no noise: one fall
@@ -135,7 +133,7 @@ impl Setting {
         options: &Options,
         progress: &dyn Progress,
     ) -> Result<Vec<Fall>, ReportError> {
-        let stepper = self.stepper(reading)?;
+        let prepared = self.under(reading)?;
         let seeds = if *reading == KIRCHHOFF {
             1
         } else {
@@ -147,7 +145,7 @@ impl Setting {
             .into_par_iter()
             .map(|i| {
                 let seed = options.first_seed.saturating_add(u64::from(i));
-                let fall = self.fall(&stepper, seed, progress);
+                let fall = fall(&prepared, seed, progress);
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.report(&stage, f64::from(done) / f64::from(seeds));
                 fall
@@ -157,44 +155,6 @@ impl Setting {
             .into_iter()
             .collect::<Option<_>>()
             .ok_or(ReportError::Cancelled)
-    }
-
-    fn fall(&self, stepper: &Stepper, seed: u64, progress: &dyn Progress) -> Option<Fall> {
-        let Scene {
-            release,
-            time_step,
-            stop,
-            ..
-        } = &self.scene;
-        let noise = NoiseStream { seed, body: 0 };
-        let mut state = *release;
-        let mut states = vec![state];
-        let ended = run(
-            |state| advance(&self.scene, stepper, state, &noise),
-            &mut state,
-            *time_step,
-            &self.hull,
-            stop,
-            |s| {
-                states.push(*s);
-                if s.step % 256 == 0 && progress.cancelled() {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
-                }
-            },
-        );
-        let ending = match ended {
-            Ok(Ending::Stopped) => return None,
-            Ok(Ending::Ground) => "ground",
-            Ok(Ending::Time) => "time",
-            Err(_) => "diverged",
-        };
-        Some(Fall {
-            seed,
-            states,
-            ending,
-        })
     }
 
     /// The body along its path: `interval` seconds apart, or as close as bodies stay apart.
@@ -224,6 +184,27 @@ impl Setting {
             ..PictureOptions::default()
         };
         Ok(trajectory_picture(&subject, &poses, &options)?)
+    }
+}
+
+/// The fall of one seed; none if it was cancelled.
+fn fall(prepared: &Prepared, seed: u64, progress: &dyn Progress) -> Option<Fall> {
+    let mut release = prepared.release(0);
+    release.noise.seed = seed;
+    let fall = prepared.drop(&release, &Quiet(progress));
+    (fall.ended != Ok(Ending::Stopped)).then(|| Fall {
+        seed,
+        ending: fall.ending(),
+        states: fall.states,
+    })
+}
+
+/// Passes on only whether to go on.
+struct Quiet<'a>(&'a dyn Progress);
+
+impl Progress for Quiet<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
     }
 }
 

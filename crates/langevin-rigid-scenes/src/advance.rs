@@ -1,13 +1,14 @@
 //! One step of a scene: the stepper's, and what else the body meets there.
 
-use langevin_rigid::{NoiseStream, State, StepError, Stepper};
+use langevin_rigid::{State, StepError, Stepper};
 
+use crate::prepared::Release;
 use crate::scene::{Scene, Tank};
 
 /// Advances `state` by the scene's time step.
 ///
 /// While it is [carried](Scene::carried) the body moves with its release velocity and does not turn.
-/// The walls of a tank hold the centre of mass: where it would pass one it stays at it, and loses the
+/// The walls of a tank, around the release, hold the centre of mass: where it would pass one it stays at it, and loses the
 /// component of its velocity into the wall.
 ///
 /// # Errors
@@ -15,20 +16,24 @@ use crate::scene::{Scene, Tank};
 pub fn advance(
     scene: &Scene,
     stepper: &Stepper,
+    release: &Release,
     state: &mut State,
-    noise: &NoiseStream,
 ) -> Result<(), StepError> {
-    let dt = scene.time_step;
-    // Half a step of slack: times are sums of steps.
-    if state.time < scene.carried - 0.5 * dt {
-        carry(state, dt);
+    if is_carried(scene, state) {
+        carry(state, scene.time_step);
     } else {
-        stepper.step(state, dt, &(*noise).into())?;
+        stepper.step(state, scene.time_step, &release.noise.into())?;
     }
     if let Some(tank) = &scene.tank {
-        hold(tank, scene.release.position, state);
+        hold(tank, release.state.position, state);
     }
     Ok(())
+}
+
+/// Whether the body is not let go yet.
+pub(crate) fn is_carried(scene: &Scene, state: &State) -> bool {
+    // Half a step of slack: times are sums of steps.
+    state.time < scene.carried - 0.5 * scene.time_step
 }
 
 fn carry(state: &mut State, dt: f64) {
@@ -41,7 +46,7 @@ fn carry(state: &mut State, dt: f64) {
 }
 
 /// Keeps the centre of mass between the walls around the release at `origin`.
-fn hold(tank: &Tank, origin: [f64; 3], state: &mut State) {
+pub(crate) fn hold(tank: &Tank, origin: [f64; 3], state: &mut State) {
     for axis in [0, 2] {
         let away = state.position[axis] - origin[axis];
         let half = 0.5 * tank.size[axis];
@@ -59,6 +64,7 @@ fn hold(tank: &Tank, origin: [f64; 3], state: &mut State) {
 
 #[cfg(test)]
 mod tests {
+    use langevin_rigid::NoiseStream;
     use langevin_rigid::linalg::quat_from_rotation_vector;
 
     use super::*;
@@ -98,16 +104,20 @@ mod tests {
         let scene = Scene::parse("coin", "coin.toml", text).unwrap();
         let bake = baking::bake_scene(&scene, None, &()).unwrap().bake;
         let stepper = baking::stepper(&scene, &bake).unwrap();
-        let mut state = scene.release;
+        let release = Release {
+            state: scene.release,
+            noise: NoiseStream::default(),
+        };
+        let mut state = release.state;
         for _ in 0..50 {
-            advance(&scene, &stepper, &mut state, &NoiseStream::default()).unwrap();
+            advance(&scene, &stepper, &release, &mut state).unwrap();
         }
         assert_eq!(state.orientation, scene.release.orientation);
         assert_eq!(state.velocity, scene.release.velocity);
         for (x, wanted) in state.position.into_iter().zip([0.005, -0.015, 0.0]) {
             assert!((x - wanted).abs() < 1e-12, "{x} for {wanted}");
         }
-        advance(&scene, &stepper, &mut state, &NoiseStream::default()).unwrap();
+        advance(&scene, &stepper, &release, &mut state).unwrap();
         assert_ne!(state.velocity, scene.release.velocity);
     }
 }

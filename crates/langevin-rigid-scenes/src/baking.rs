@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use langevin_rigid::linalg::Vec3;
 use langevin_rigid::{
     Bake, Body, Fluid, Settings, SetupError, Stepper, TurbulenceHistory, TurbulenceSource,
     falling_speed,
@@ -209,15 +208,15 @@ pub fn history(
 
 /// The larger of the falling speed U0, Eq. (1), and the release speed relative to the fluid (m/s).
 pub fn characteristic_speed(scene: &Scene, body: &Body) -> f64 {
-    let released = scene.release.world_velocity();
-    let relative: Vec3 = std::array::from_fn(|i| released[i] - scene.fluid.velocity[i]);
-    let speed = relative.iter().map(|x| x * x).sum::<f64>().sqrt();
-    falling_speed(body, &scene.fluid, scene.settings.gravity).max(speed)
+    falling_speed(body, &scene.fluid, scene.settings.gravity).max(scene.release_speed())
 }
 
-/// Reynolds number of the run, Eq. (1) with [`characteristic_speed`].
-pub fn reynolds(scene: &Scene, body: &Body) -> f64 {
-    characteristic_speed(scene, body) * body.length / scene.fluid.viscosity
+/// The settings of a scene with the speed of its release.
+pub fn settings(scene: &Scene) -> Settings {
+    Settings {
+        release_speed: scene.release_speed(),
+        ..scene.settings
+    }
 }
 
 /// The stepper of a baked scene.
@@ -225,15 +224,8 @@ pub fn reynolds(scene: &Scene, body: &Body) -> f64 {
 /// # Errors
 /// See [`SetupError`].
 pub fn stepper(scene: &Scene, bake: &Bake) -> Result<Stepper, SetupError> {
-    let reynolds = scene
-        .settings
-        .reynolds
-        .unwrap_or_else(|| reynolds(scene, &bake.body));
-    let settings = Settings {
-        reynolds: Some(reynolds),
-        ..scene.settings
-    };
-    Stepper::new(&bake.body, &scene.fluid, bake.history.as_ref(), &settings)
+    let history = bake.history.as_ref();
+    Stepper::new(&bake.body, &scene.fluid, history, &settings(scene))
 }
 
 fn cache_file(folder: &Path, fingerprint: &[u8; 32]) -> PathBuf {

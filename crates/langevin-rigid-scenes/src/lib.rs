@@ -4,5 +4,6 @@
 pub mod advance;
 pub mod baking;
 pub mod ensemble;
+pub mod prepared;
 pub mod regimes;
 pub mod scene;

@@ -15,12 +15,18 @@ mod seed;
 mod separated;
 mod shape;
 mod surroundings;
+fn relative_speed(release: &State, fluid: &Fluid) -> f64 {
+    let released = release.world_velocity();
+    let relative: [f64; 3] = std::array::from_fn(|i| released[i] - fluid.velocity[i]);
+    relative.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
 #[cfg(test)]
 mod tests;
 
 use std::path::PathBuf;
 
-use langevin_rigid::{Fluid, Settings, State, StopAt};
+use langevin_rigid::{Fluid, Model, Settings, State, StopAt};
 use langevin_rigid_bake::body::BodySpec;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::Sampling;
@@ -180,14 +186,15 @@ impl Scene {
         let run = raw.run.get_ref();
         let release = release::resolve(&doc, &raw.release)?;
         let tank = surroundings::tank(&doc, raw.tank.as_ref())?;
+        let fluid = surroundings::fluid(&doc, &raw.fluid)?;
         let stop = run::stop(&doc, &raw.run, tank.map(|t| t.floor(release.position)))?;
         run::check_height(&doc, run, &stop, release.position[1])?;
         Ok(Self {
             name: name.to_owned(),
             description: raw.description.clone().unwrap_or_default(),
-            fluid: surroundings::fluid(&doc, &raw.fluid)?,
             settings: Settings {
                 separated: separated::resolve(&doc, &raw.separated)?,
+                release_speed: relative_speed(&release, &fluid),
                 ..run::settings(&doc, run, &raw.turbulence)?
             },
             time_step: run::time_step(&doc, &raw.run, &stop)?,
@@ -198,10 +205,24 @@ impl Scene {
             carried: release::carried(&doc, &raw.release)?,
             // Last: it makes a mesh.
             body: shape::resolve(&doc, &raw.body)?,
+            fluid,
             release,
             stop,
             tank,
         })
+    }
+
+    /// Puts the scene under another model, with the integrator that it is meant for.
+    pub fn set_model(&mut self, model: Model) {
+        if model != self.settings.model {
+            self.settings.model = model;
+            self.settings.integrator = model.integrator();
+        }
+    }
+
+    /// Speed of the release relative to the fluid (m/s).
+    pub fn release_speed(&self) -> f64 {
+        relative_speed(&self.release, &self.fluid)
     }
 
     /// What is said of its runs in files for other programs.

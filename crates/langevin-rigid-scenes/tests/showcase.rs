@@ -8,7 +8,7 @@
 use langevin_rigid::linalg::rotate;
 use langevin_rigid::{Bake, NoiseStream, State};
 use langevin_rigid_scenes::scene::{Scene, find};
-use langevin_rigid_scenes::{advance::advance, baking};
+use langevin_rigid_scenes::{advance::advance, baking, prepared::Release};
 
 fn baked(name: &str) -> (Scene, Bake) {
     let scene = find(name).unwrap();
@@ -19,11 +19,14 @@ fn baked(name: &str) -> (Scene, Bake) {
 /// The states from the release to `seconds` later.
 fn fall(scene: &Scene, bake: &Bake, seed: u64, seconds: f64) -> Vec<State> {
     let stepper = baking::stepper(scene, bake).unwrap();
-    let noise = NoiseStream { seed, body: 0 };
-    let mut states = vec![scene.release];
-    let mut state = scene.release;
+    let release = Release {
+        state: scene.release,
+        noise: NoiseStream { seed, body: 0 },
+    };
+    let mut states = vec![release.state];
+    let mut state = release.state;
     while state.time < seconds {
-        advance(scene, &stepper, &mut state, &noise).unwrap();
+        advance(scene, &stepper, &release, &mut state).unwrap();
         states.push(state);
     }
     states

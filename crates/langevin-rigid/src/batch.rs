@@ -26,7 +26,7 @@ impl Precision for f64 {}
 impl Precision for f32 {}
 
 mod sealed {
-    use super::{Forced, Pack, StepError, Stepper};
+    use super::{ForcedOf, Pack, StepError, Stepper};
 
     /// What a precision must do.
     pub trait Sealed: Sized + 'static {
@@ -37,7 +37,7 @@ mod sealed {
             stepper: &Stepper,
             packs: &mut [Pack<Self>],
             dt: f64,
-            forced: &mut dyn FnMut(&Pack<Self>) -> Option<Forced<Self>>,
+            forced: &mut ForcedOf<'_, Self>,
             stopped: &mut Vec<(u32, StepError)>,
         );
     }
@@ -60,7 +60,7 @@ macro_rules! precision {
                 stepper: &Stepper,
                 packs: &mut [Pack<Self>],
                 dt: f64,
-                forced: &mut dyn FnMut(&Pack<Self>) -> Option<Forced<Self>>,
+                forced: &mut ForcedOf<'_, Self>,
                 stopped: &mut Vec<(u32, StepError)>,
             ) {
                 if stepper.symmetric.is_some() {
@@ -109,6 +109,11 @@ pub struct Pack<P = f64> {
     velocity: [[P; PACK]; 6],
 }
 
+/// The input of a body from its number and its state.
+pub(crate) type Inputs<'a> = dyn FnMut(u32, &State) -> Input + 'a;
+/// What acts on the bodies of a pack, if anything does.
+pub(crate) type ForcedOf<'a, P> = dyn FnMut(&Pack<P>) -> Option<Forced<P>> + 'a;
+
 /// What acts on the bodies of a pack over a step.
 pub struct Forced<P> {
     inputs: [Input; PACK],
@@ -155,6 +160,33 @@ impl<P: Precision> Batch<P> {
         pack.bodies[body % PACK] = body as u32;
         pack.taken += 1;
         pack.set(body % PACK, state);
+    }
+
+    /// Adds a body with the noise of body `number` of the run. Its place is the last, and errors name its number.
+    pub fn push_numbered(&mut self, number: u32, state: &State) {
+        self.push(state);
+        let place = (self.len() - 1) % PACK;
+        if let Some(pack) = self.packs.last_mut() {
+            pack.bodies[place] = number;
+        }
+    }
+
+    /// Takes out the body in this place, which the last body takes, noise and all; gives its state, if there is such a body.
+    pub fn swap_remove(&mut self, place: usize) -> Option<State> {
+        let state = self.state(place)?;
+        let last = self.len() - 1;
+        let moved = self.state(last)?;
+        let number = self.packs[last / PACK].bodies[last % PACK];
+        self.set(place, &moved);
+        self.packs[place / PACK].bodies[place % PACK] = number;
+        let pack = &mut self.packs[last / PACK];
+        pack.taken -= 1;
+        // What is in no place rests.
+        pack.set(last % PACK, &State::default());
+        if pack.taken == 0 {
+            self.packs.pop();
+        }
+        Some(state)
     }
 
     /// Number of bodies.
@@ -240,7 +272,7 @@ impl<P: Precision> Pack<P> {
     /// One body after the other, in double precision.
     pub(crate) fn step_each(
         &mut self,
-        inputs: &mut dyn FnMut(u32, &State) -> Input,
+        inputs: &mut Inputs<'_>,
         stopped: &mut Vec<(u32, StepError)>,
         step: impl Fn(&mut State, &Input) -> Result<(), StepError>,
     ) {
@@ -308,7 +340,7 @@ fn step_packs<S: Simd, L: Lanes<S>, F: Shape>(
     stepper: &Stepper,
     packs: &mut [Pack<L::Scalar>],
     dt: f64,
-    forced: &mut dyn FnMut(&Pack<L::Scalar>) -> Option<Forced<L::Scalar>>,
+    forced: &mut ForcedOf<'_, L::Scalar>,
     stopped: &mut Vec<(u32, StepError)>,
 ) where
     L::Scalar: Precision,

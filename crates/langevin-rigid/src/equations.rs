@@ -29,7 +29,6 @@ pub(crate) struct Equations<F: Shape = General, R: Real = f64> {
 
 /// What acts beyond Kirchhoff's terms; inline, so that putting it into lanes allocates nothing.
 #[derive(Debug, Clone)]
-#[expect(clippy::large_enum_variant, reason = "one for each body or batch")]
 pub(crate) enum Loads<F: Shape = General, R: Real = f64> {
     None,
     /// The Langevin loads, by Strang's splitting.

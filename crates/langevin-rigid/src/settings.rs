@@ -22,6 +22,16 @@ pub enum Model {
     Separated,
 }
 
+impl Model {
+    /// The integrator that it is meant for: the printed equations know only the paper's.
+    pub fn integrator(self) -> Integrator {
+        match self {
+            Self::Published(_) => Integrator::RungeKutta4,
+            Self::Consistent | Self::Kirchhoff | Self::Separated => Integrator::default(),
+        }
+    }
+}
+
 /// How a step is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
@@ -58,7 +68,10 @@ pub struct Settings {
     pub gravity: Vec3,
     /// Length l of Eq. (18) for body-driven turbulence (m); the body's own if none.
     pub turbulence_length: Option<f64>,
-    /// Reynolds number of C0(Re), Eq. (10); that of Eq. (1) if none.
+    /// Speed relative to the fluid at which the body is let go (m/s). The speed U of a run is the larger of this and
+    /// of U0, Eq. (1); its Reynolds number U L / nu goes into C0(Re), Eq. (10).
+    pub release_speed: f64,
+    /// Another Reynolds number than that.
     pub reynolds: Option<f64>,
 }
 
@@ -71,6 +84,7 @@ impl Default for Settings {
             separated: SeparatedFlow::default(),
             gravity: GRAVITY,
             turbulence_length: None,
+            release_speed: 0.0,
             reynolds: None,
         }
     }

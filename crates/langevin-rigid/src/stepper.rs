@@ -1,6 +1,6 @@
 //! One body made ready to step: Algorithm 2.
 
-use crate::batch::{Batch, BatchError, Pack, Precision};
+use crate::batch::{Batch, BatchError, Inputs, Pack, Precision};
 use crate::body::{Body, BodyError};
 use crate::equations::{Equations, Loads, Noise, SPEED_LIMIT, Separated, is_unit, possible};
 use crate::fluid::Fluid;
@@ -59,6 +59,7 @@ pub struct Stepper {
     /// The paper's own integrator in place of the default one.
     paper: Option<Paper>,
     model: Model,
+    reynolds: f64,
 }
 
 /// What the paper's integrator is given.
@@ -201,6 +202,7 @@ impl Stepper {
             symmetric,
             paper,
             model: settings.model,
+            reynolds: reynolds(body, fluid, settings),
         })
     }
 
@@ -237,6 +239,11 @@ impl Stepper {
         }
         *state = next;
         Ok(())
+    }
+
+    /// Reynolds number of the run: see [`Settings::release_speed`].
+    pub fn reynolds(&self) -> f64 {
+        self.reynolds
     }
 
     /// The longest step (s) that a body in this state takes whole in steady fluid; a longer one is taken in parts.
@@ -353,7 +360,7 @@ impl Stepper {
         &self,
         packs: &mut [Pack<P>],
         dt: f64,
-        mut inputs: Option<&mut dyn FnMut(u32, &State) -> Input>,
+        mut inputs: Option<&mut Inputs<'_>>,
     ) -> Result<(), BatchError> {
         let mut stopped = Vec::new();
         match self.paper {
@@ -569,10 +576,8 @@ fn loads(
     settings: &Settings,
     kirchhoff: &Kirchhoff,
 ) -> Result<(Loads, Option<Paper>), SetupError> {
+    let reynolds = reynolds(body, fluid, settings);
     let source = || {
-        let reynolds = settings
-            .reynolds
-            .unwrap_or_else(|| falling_reynolds(body, fluid, settings.gravity));
         let length = settings
             .turbulence_length
             .unwrap_or_else(|| body.turbulence_length());
@@ -583,8 +588,8 @@ fn loads(
     // Twice the mean speed: what a swing or a dive may reach.
     let mean = || {
         let falling = falling_speed(body, fluid, settings.gravity);
-        let stated = settings.reynolds.unwrap_or(0.0) * fluid.viscosity / body.length;
-        Ok::<_, SetupError>(source()?.with_mean_speed(2.0 * falling.max(stated)))
+        let mean = falling.max(reynolds * fluid.viscosity / body.length);
+        Ok::<_, SetupError>(source()?.with_mean_speed(2.0 * mean))
     };
     let langevin = |source| {
         let added = body.added_mass.map(|row| row.map(|a| fluid.density * a));
@@ -631,6 +636,13 @@ pub fn falling_reynolds(body: &Body, fluid: &Fluid, gravity: Vec3) -> f64 {
     falling_speed(body, fluid, gravity) * body.length / fluid.viscosity
 }
 
+/// Reynolds number of a run: see [`Settings::release_speed`].
+fn reynolds(body: &Body, fluid: &Fluid, settings: &Settings) -> f64 {
+    let speed = falling_speed(body, fluid, settings.gravity).max(settings.release_speed);
+    let of_run = speed * body.length / fluid.viscosity;
+    settings.reynolds.unwrap_or(of_run)
+}
+
 fn check(fluid: &Fluid, settings: &Settings) -> Result<(), SetupError> {
     let positive = [
         ("the fluid's density", Some(fluid.density)),
@@ -654,6 +666,7 @@ fn check(fluid: &Fluid, settings: &Settings) -> Result<(), SetupError> {
     };
     for (name, value) in [
         ("the Reynolds number", settings.reynolds.unwrap_or(0.0)),
+        ("the release speed", settings.release_speed),
         ("the wake age of the turbulence", wake_age),
         ("the gain of dynamic stall", c.dynamic_stall),
         ("the rotational lift", c.rotational_lift),

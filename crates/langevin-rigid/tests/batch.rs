@@ -159,3 +159,38 @@ fn single_precision_errs_by_a_few_roundings_a_step() {
         }
     }
 }
+
+#[test]
+fn bodies_come_and_go_with_their_numbers() {
+    let (_, stepper, dt) = &steppers()[0];
+    let mut batch = Batch::<f64>::new(5);
+    let mut alone: Vec<(u32, State)> = Vec::new();
+    for number in [7, 3, 40] {
+        batch.push_numbered(number, &release(number as usize));
+        alone.push((number, release(number as usize)));
+    }
+    for body in 0..BODIES {
+        batch.push_numbered(100 + body as u32, &release(body));
+        alone.push((100 + body as u32, release(body)));
+    }
+    for place in [1, 0, alone.len() - 3, 5, 5] {
+        assert_eq!(batch.swap_remove(place), Some(alone.swap_remove(place).1));
+        stepper.step_batch(&mut batch, *dt).unwrap();
+        for (body, state) in &mut alone {
+            let noise = NoiseStream {
+                seed: 5,
+                body: *body,
+            };
+            stepper.step(state, *dt, &noise.into()).unwrap();
+        }
+    }
+    assert_eq!(batch.len(), alone.len());
+    for (place, (_, state)) in alone.iter().enumerate() {
+        assert_eq!(batch.state(place).as_ref(), Some(state));
+    }
+    assert_eq!(batch.swap_remove(alone.len()), None);
+    while !batch.is_empty() {
+        batch.swap_remove(0).unwrap();
+    }
+    assert_eq!(batch.len(), 0);
+}

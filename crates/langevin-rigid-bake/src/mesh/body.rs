@@ -25,6 +25,8 @@ impl TriMesh {
         }
         let sealed = (0u32..).zip(&root_of).filter(|&(_, &root)| depth[root] > 0);
         self.sealed = sealed.map(|(t, _)| t).collect();
+        let outer = (0..volumes.len()).filter(|&t| root_of[t] == t && depth[t] == 0);
+        check::resolved(&self, outer.map(|root| volumes[root].abs()).sum())?;
         Ok(self)
     }
 }

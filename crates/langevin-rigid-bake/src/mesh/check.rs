@@ -2,7 +2,7 @@
 
 use super::edges::{Side, by_edge, disagree, sorted_sides};
 use super::intersect::meetings;
-use super::parts::{components, fans, windings};
+use super::parts::{boxes, components, fans, windings};
 use super::vector::{add, bounding_box, cross, dot, norm, scale, sub};
 use super::{EdgeSite, MeshError, TriMesh};
 
@@ -11,6 +11,8 @@ use super::{EdgeSite, MeshError, TriMesh};
 const DEGENERATE: f64 = 1e-10;
 /// Volume over area times bounding-box diagonal, below which a closed surface is flat.
 const FLAT: f64 = 1e-10;
+/// Share of the volume that may be lost to rounding where parts are far apart.
+const LOST: f64 = 1e-3;
 /// Greatest deviation of RᵀR from the unit matrix in a transformation.
 const ORTHOGONAL: f64 = 1e-9;
 
@@ -188,16 +190,11 @@ pub(super) fn manifold_vertices(
 /// Checks that each component encloses something.
 pub(super) fn volumes(mesh: &TriMesh, root_of: &[usize], volumes: &[f64]) -> Result<(), MeshError> {
     let mut areas = vec![0.0; volumes.len()];
-    let mut bounds = vec![bounding_box(&[]); volumes.len()];
     for (t, &root) in root_of.iter().enumerate() {
         areas[root] += mesh.area(t);
-        let [low, high] = bounding_box(&mesh.corners(t));
-        for k in 0..3 {
-            bounds[root][0][k] = bounds[root][0][k].min(low[k]);
-            bounds[root][1][k] = bounds[root][1][k].max(high[k]);
-        }
     }
-    let size = |root: usize| sub(bounds[root][1], bounds[root][0]);
+    let boxes = boxes(&mesh.vertices, &mesh.triangles, root_of);
+    let size = |root: usize| sub(boxes[root][1], boxes[root][0]);
     let is_flat = |&root: &usize| {
         let encloses = volumes[root].abs() > FLAT * areas[root] * norm(size(root));
         root_of[root] == root && !encloses
@@ -209,6 +206,20 @@ pub(super) fn volumes(mesh: &TriMesh, root_of: &[usize], volumes: &[f64]) -> Res
             size: size(root),
         }),
     }
+}
+
+/// Checks that `displaced`, the sum over the parts (m³), is what integrals over all of the surface give.
+pub(super) fn resolved(mesh: &TriMesh, displaced: f64) -> Result<(), MeshError> {
+    let found = mesh.volume();
+    if (found - displaced).abs() <= LOST * displaced {
+        return Ok(());
+    }
+    let [low, high] = mesh.bounding_box();
+    Err(MeshError::PartsFarApart {
+        volume: displaced,
+        found,
+        size: sub(high, low),
+    })
 }
 
 /// Checks that no triangles pass through each other or lie on each other.

@@ -141,6 +141,16 @@ pub enum MeshError {
         /// Edges of the bounding box (m).
         size: [f64; 3],
     },
+    /// Parts are so far apart for their size that their volume is lost to rounding.
+    #[error("the parts are too far apart for their size: they enclose {volume:.3e} m³, but rounding makes it {found:.3e} m³ within a box of {:.3e} by {:.3e} by {:.3e} m: move them together, or keep the largest with `langevin-rigid repair --largest`", size[0], size[1], size[2])]
+    PartsFarApart {
+        /// The volume that the parts enclose (m³), each measured by itself.
+        volume: f64,
+        /// What an integral over all of the surface gives (m³).
+        found: f64,
+        /// Edges of the bounding box of all (m).
+        size: [f64; 3],
+    },
     /// The surface passes through itself, or lies on itself.
     #[error(
         "the surface passes through itself: {count} triangles meet others, the first triangle {} with {} at ({:.6}, {:.6}, {:.6}) m: let `langevin-rigid check` say what mends it, or untangle it in the program that made it",

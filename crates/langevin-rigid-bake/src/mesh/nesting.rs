@@ -3,6 +3,7 @@
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
+use super::parts;
 use super::vector::bounding_box;
 
 /// For each of the `roots`, the closed components around its first corner, by their place among the `roots`.
@@ -30,21 +31,11 @@ pub(super) fn around(
         let flat = |p: [f64; 3]| [p[1], p[2]];
         GeomWithData::new(Rectangle::from_corners(flat(low), flat(high)), t)
     };
-    let mut boxes = vec![[[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]; roots.len()];
-    for t in 0..triangles.len() {
-        let [low, high] = bounding_box(&corners(t));
-        let Some([lowest, highest]) = boxes.get_mut(places[root_of[t]]) else {
-            continue;
-        };
-        for i in 0..3 {
-            lowest[i] = lowest[i].min(low[i]);
-            highest[i] = highest[i].max(high[i]);
-        }
-    }
+    let boxes = parts::boxes(vertices, triangles, root_of);
     let holds = |outer: usize, inner: usize| {
-        let ([low, high], [inner_low, inner_high]) = (boxes[outer], boxes[inner]);
-        boxes[outer] != boxes[inner]
-            && (0..3).all(|i| low[i] <= inner_low[i] && inner_high[i] <= high[i])
+        let [outer, inner] = [outer, inner].map(|place| boxes[roots[place]]);
+        let ([low, high], [inner_low, inner_high]) = (outer, inner);
+        outer != inner && (0..3).all(|i| low[i] <= inner_low[i] && inner_high[i] <= high[i])
     };
     let shadows = (0..triangles.len()).filter(|&t| closed(root_of[t]));
     let tree = RTree::bulk_load(shadows.map(shadow).collect());

@@ -1,6 +1,7 @@
 //! What is joined to what: union-find with orientation, and what it makes of triangles.
 
 use super::edges::{Side, by_edge, disagree};
+use super::vector::bounding_box;
 
 /// Union-find whose elements also carry a sign relative to their root.
 pub(super) struct SignedParts {
@@ -76,6 +77,24 @@ pub(super) fn components(triangle_count: usize, sides: &[Side]) -> Vec<usize> {
         parts.join(edge[0].triangle as usize, edge[1].triangle as usize, false);
     }
     (0..triangle_count).map(|t| parts.root(t).0).collect()
+}
+
+/// Lowest and highest corner of the box about each component (m), at the number of its first triangle.
+pub(super) fn boxes(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    root_of: &[usize],
+) -> Vec<[[f64; 3]; 2]> {
+    let mut boxes = vec![bounding_box(&[]); triangles.len()];
+    for (t, &root) in triangles.iter().zip(root_of) {
+        let [low, high] = bounding_box(&t.map(|v| vertices[v as usize]));
+        let [lowest, highest] = &mut boxes[root];
+        for k in 0..3 {
+            lowest[k] = lowest[k].min(low[k]);
+            highest[k] = highest[k].max(high[k]);
+        }
+    }
+    boxes
 }
 
 /// For each triangle the lowest one of its component, and whether the two wind in opposite senses; with

@@ -409,6 +409,66 @@ fn each_part_must_enclose_something() {
     assert!(matches!(flat, Err(MeshError::ZeroVolume { .. })));
 }
 
+#[test]
+fn small_parts_are_measured_by_themselves_wherever_they_are() {
+    // Rounding gives what is flat a volume about a point far from its plane.
+    let flat = [
+        [0.0; 3],
+        [0.0, 1.0, 0.1],
+        [0.0, 0.3, 0.7],
+        [0.0, 0.37, 0.21],
+    ];
+    let flat_at = |x: f64| flat.map(|v| add(scale(3e-10, v), [x, 0.0, 0.0]));
+    let flats = two_tetrahedra_of(|v| *v = [flat_at(-1.1), flat_at(1.3)].concat());
+    assert!(matches!(flats, Err(MeshError::ZeroVolume { .. })));
+    // And hides the volume, and which way is out, of what is small.
+    for place in [
+        [70.0, 80.0, 90.0],
+        [-70.0, 80.0, 91.0],
+        [-71.0, -82.0, 93.0],
+    ] {
+        let speck = |v: &mut Vec<[f64; 3]>| {
+            v[4..].copy_from_slice(&CORNERS.map(|c| add(scale(1e-6, c), place)));
+        };
+        let beside = two_tetrahedra_of(speck).unwrap();
+        assert!(!beside.was_turned());
+        let mut inward = beside.triangles().to_vec();
+        inward[4..].iter_mut().for_each(|t| t.swap(0, 1));
+        let beside = TriMesh::new(beside.vertices().to_vec(), inward).unwrap();
+        assert_eq!(beside.turned, 4);
+    }
+}
+
+#[test]
+fn parts_whose_volume_is_lost_to_rounding_are_no_body() {
+    let apart = |offset: [f64; 3]| {
+        two_tetrahedra_of(|v| v[4..].copy_from_slice(&CORNERS.map(|c| add(c, offset))))
+    };
+    let along = apart([1.0e7 / 3.0, 0.0, 0.0]).unwrap();
+    assert!((along.volume() - 1.0 / 3.0).abs() < 1e-6);
+    let across = apart([1.0e7 / 3.0, 1.0e7 / 7.0, 1.0e7 / 11.0]).unwrap_err();
+    let MeshError::PartsFarApart { volume, .. } = across else {
+        panic!("{across}");
+    };
+    assert!((volume - 1.0 / 3.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_body_of_any_size_has_a_volume() {
+    for power in -320..308 {
+        let size = 10f64.powi(power);
+        let sized = two_tetrahedra_of(|v| v.iter_mut().for_each(|v| *v = scale(size, *v)));
+        let within = (-80..=76).contains(&power);
+        match sized {
+            Ok(body) => assert!(
+                body.volume() > 0.0 && body.volume().is_finite(),
+                "1e{power}"
+            ),
+            Err(error) => assert!(!within, "1e{power}: {error}"),
+        }
+    }
+}
+
 fn two_tetrahedra_of(change: impl FnOnce(&mut Vec<[f64; 3]>)) -> Result<TriMesh, MeshError> {
     tetrahedron_with(|v, t| {
         v.extend(CORNERS.map(|c| add(c, [-3.0, 0.0, 0.0])));

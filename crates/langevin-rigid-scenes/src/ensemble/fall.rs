@@ -1,29 +1,32 @@
-//! One fall of an ensemble.
+//! The falls of an ensemble, in lanes.
 
 use langevin_rigid::linalg::Vec3;
-use langevin_rigid::{Hull, NoiseStream, State, StepError, Stepper};
+use langevin_rigid::{Batch, NoiseStream, State};
+use serde::{Deserialize, Serialize};
 
 use super::motion::MotionTracker;
 use super::scatter::scattered_release;
-use crate::advance::advance;
-use crate::scene::{MAX_STEPS, Scene};
+use crate::advance::{advance, hold, is_carried};
+use crate::prepared::{Prepared, Release};
+use crate::scene::MAX_STEPS;
 
 /// Positions are kept at whole multiples of a sixtieth of a second.
 pub const SAMPLES_PER_SECOND: u32 = 60;
 
-/// Steps between two looks at whether to go on.
-const PATIENCE: u64 = 256;
+/// Steps of a batch between two looks at whether to go on.
+const PATIENCE: u32 = 16;
 
 /// Why a fall ended.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum FallEnding {
     /// The body touched the ground, or the floor of the tank.
     Ground,
     /// The time was up, or the steps were: [`MAX_STEPS`](crate::scene::MAX_STEPS).
     Time,
-    /// A step failed.
-    Diverged(StepError),
+    /// A step failed, for this reason.
+    Diverged(String),
 }
 
 impl FallEnding {
@@ -38,7 +41,7 @@ impl FallEnding {
 }
 
 /// A fall, from release to ending.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fall {
     /// Number of the run.
     pub run: u32,
@@ -56,52 +59,150 @@ pub struct Fall {
 
 /// What all falls of an ensemble share.
 pub(super) struct Setup<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) stepper: &'a Stepper,
-    pub(super) hull: Hull,
+    pub(super) prepared: &'a Prepared,
     pub(super) thin_axis: Vec3,
 }
 
+/// A fall under way.
+struct Falling {
+    release: Release,
+    motion: MotionTracker,
+    samples: Vec<Vec3>,
+}
+
+/// What becomes of a run while it is carried.
+enum Start {
+    /// It is let go in this state.
+    Free(Falling, State),
+    /// It ended before.
+    Over(Fall),
+}
+
 impl Setup<'_> {
-    /// The fall of one run; none if it was cancelled.
-    pub(super) fn fall(&self, run: u32, cancelled: &dyn Fn() -> bool) -> Option<Fall> {
-        let noise = NoiseStream {
-            seed: self.scene.seed,
-            body: run,
+    /// The falls of some runs, in their order; without those that were under way when it was cancelled. `done` hears of
+    /// each that ended.
+    pub(super) fn falls(
+        &self,
+        runs: &[u32],
+        cancelled: &dyn Fn() -> bool,
+        done: &dyn Fn(),
+    ) -> Vec<Fall> {
+        let mut ended = Vec::new();
+        let mut end = |fall: Fall| {
+            ended.push(fall);
+            done();
         };
-        let mut state = scattered_release(self.scene, run);
-        let mut motion = MotionTracker::new(self.thin_axis, &state);
-        let mut samples = vec![self.relative_to_release(state.position)];
-        let ending = loop {
-            if let Some(ending) = self.ending(&state) {
-                break ending;
+        let mut batch = Batch::<f64>::new(self.prepared.scene().seed);
+        let mut falling = Vec::new();
+        for &run in runs {
+            match self.let_go(run) {
+                Start::Free(fall, state) => {
+                    batch.push_numbered(run, &state);
+                    falling.push(fall);
+                }
+                Start::Over(fall) => end(fall),
             }
-            if state.step.is_multiple_of(PATIENCE) && cancelled() {
-                return None;
+        }
+        let mut steps = 0u32;
+        while !falling.is_empty() {
+            if steps.is_multiple_of(PATIENCE) && cancelled() {
+                break;
+            }
+            steps = steps.wrapping_add(1);
+            self.step(&mut batch, &mut falling, &mut end);
+        }
+        ended.sort_by_key(|fall| fall.run);
+        ended
+    }
+
+    /// One step of all that fall, and the end of those whose last it is.
+    fn step(&self, batch: &mut Batch, falling: &mut Vec<Falling>, end: &mut impl FnMut(Fall)) {
+        let (scene, stepper) = (self.prepared.scene(), self.prepared.stepper());
+        let before: Vec<State> = (0..falling.len()).filter_map(|i| batch.state(i)).collect();
+        let stopped = stepper.step_batch(batch, scene.time_step).err();
+        let stopped = stopped.map_or_else(Vec::new, |error| error.bodies);
+        // Backwards, as the last takes the place of one that leaves.
+        for place in (0..falling.len()).rev() {
+            let Some(mut state) = batch.state(place) else {
+                continue;
+            };
+            let fall = &mut falling[place];
+            let mut ending = None;
+            if stopped.contains(&fall.release.noise.body) {
+                let mut again = state;
+                let input = fall.release.noise.into();
+                let error = stepper.step(&mut again, scene.time_step, &input).err();
+                let words = error.map_or_else(String::new, |error| error.to_string());
+                ending = Some(FallEnding::Diverged(words));
+            } else {
+                if let Some(tank) = &scene.tank {
+                    hold(tank, fall.release.state.position, &mut state);
+                    batch.set(place, &state);
+                }
+                self.follow(fall, &before[place], &state);
+            }
+            if let Some(ending) = ending.or_else(|| self.ending(&state)) {
+                batch.swap_remove(place);
+                end(self.ended(falling.swap_remove(place), &state, ending));
+            }
+        }
+    }
+
+    /// A run until it is let go: while it is carried it is in no batch.
+    fn let_go(&self, run: u32) -> Start {
+        let scene = self.prepared.scene();
+        let release = Release {
+            state: scattered_release(scene, run),
+            noise: NoiseStream {
+                seed: scene.seed,
+                body: run,
+            },
+        };
+        let mut state = release.state;
+        let mut fall = Falling {
+            motion: MotionTracker::new(self.thin_axis, &state),
+            samples: vec![self.relative_to_release(state.position)],
+            release,
+        };
+        loop {
+            if let Some(ending) = self.ending(&state) {
+                return Start::Over(self.ended(fall, &state, ending));
+            }
+            if !is_carried(scene, &state) {
+                return Start::Free(fall, state);
             }
             let before = state;
-            match advance(self.scene, self.stepper, &mut state, &noise) {
-                Ok(()) => {}
-                Err(error) => break FallEnding::Diverged(error),
+            if let Err(error) = advance(scene, self.prepared.stepper(), &release, &mut state) {
+                let ending = FallEnding::Diverged(error.to_string());
+                return Start::Over(self.ended(fall, &state, ending));
             }
-            motion.follow(&state);
-            self.sample(&before, &state, &mut samples);
-        };
-        Some(Fall {
-            run,
+            self.follow(&mut fall, &before, &state);
+        }
+    }
+
+    fn follow(&self, fall: &mut Falling, before: &State, after: &State) {
+        fall.motion.follow(after);
+        self.sample(before, after, &mut fall.samples);
+    }
+
+    fn ended(&self, fall: Falling, state: &State, ending: FallEnding) -> Fall {
+        Fall {
+            run: fall.release.noise.body,
             ending,
             time: state.time,
             end: self.relative_to_release(state.position),
-            samples,
-            motion,
-        })
+            samples: fall.samples,
+            motion: fall.motion,
+        }
     }
 
     fn ending(&self, state: &State) -> Option<FallEnding> {
-        let stop = &self.scene.stop;
+        let scene = self.prepared.scene();
+        let stop = &scene.stop;
         // Half a step of slack: times are sums of steps.
-        let late = |end| state.time > end - 0.5 * self.scene.time_step;
-        if stop.ground.is_some_and(|y| self.hull.touches(state, y)) {
+        let late = |end| state.time > end - 0.5 * scene.time_step;
+        let hull = self.prepared.hull();
+        if stop.ground.is_some_and(|y| hull.touches(state, y)) {
             Some(FallEnding::Ground)
         } else if stop.time.is_some_and(late) || state.step >= MAX_STEPS {
             Some(FallEnding::Time)
@@ -116,7 +217,7 @@ impl Setup<'_> {
             self.relative_to_release(before.position),
             self.relative_to_release(after.position),
         );
-        let slack = 1e-6 * self.scene.time_step;
+        let slack = 1e-6 * self.prepared.scene().time_step;
         loop {
             let due = samples.len() as f64 / f64::from(SAMPLES_PER_SECOND);
             if due > after.time + slack {
@@ -129,7 +230,7 @@ impl Setup<'_> {
 
     /// x, depth and z from the scene's release point.
     fn relative_to_release(&self, position: Vec3) -> Vec3 {
-        let origin = self.scene.release.position;
+        let origin = self.prepared.scene().release.position;
         [
             position[0] - origin[0],
             origin[1] - position[1],

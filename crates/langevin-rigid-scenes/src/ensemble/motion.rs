@@ -2,7 +2,7 @@
 
 use langevin_rigid::linalg::{Vec3, eigen_symmetric, rotate};
 use langevin_rigid::{Body, State};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A motion, by how the body's thin axis swings and turns over.
 ///
@@ -71,7 +71,7 @@ const SWUNG: f64 = 0.087_155_742_747_658_17;
 /// }
 /// assert_eq!((tracker.turnovers(), tracker.motion()), (3, Motion::Tumble));
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MotionTracker {
     axis: Vec3,
     /// 1 or -1: the sign of the vertical component as last counted.

@@ -113,7 +113,6 @@ pub(super) fn settings(
         turbulence: source(doc, run)?,
         gravity: run.gravity.as_ref().map_or(Ok(defaults.gravity), gravity)?,
         turbulence_length: doc.given(&turbulence.length, "length", SIZE)?,
-        reynolds: None,
         ..defaults
     })
 }
@@ -121,10 +120,7 @@ pub(super) fn settings(
 fn integrator(doc: &Document, run: &RawRun, model: Model) -> Result<Integrator, SceneError> {
     let published = matches!(model, Model::Published(_));
     let Some(name) = &run.integrator else {
-        return Ok(match published {
-            true => Integrator::RungeKutta4,
-            false => Integrator::default(),
-        });
+        return Ok(model.integrator());
     };
     let integrator = doc.name(name, "integrator")?;
     if published && integrator != Integrator::RungeKutta4 {

@@ -3,8 +3,8 @@
 use super::{Options, Soup, Step};
 use crate::mesh::body::depths;
 use crate::mesh::edges::{by_edge, sorted_sides};
-use crate::mesh::parts::windings;
-use crate::mesh::vector::{add, bounding_box, cross, dot, scale, sub};
+use crate::mesh::parts::{boxes, windings};
+use crate::mesh::vector::{add, cross, dot, scale, sub};
 
 /// Turns the fewer triangles of each component that disagree with the more, then closed components whose
 /// normals point into the solid. A surface with one side only is left as it is.
@@ -58,17 +58,20 @@ pub(in crate::mesh) fn minority(parts: &[(usize, bool)]) -> Vec<bool> {
 }
 
 /// Volume under each component (m³), at the number of its first triangle.
+///
+/// About the middle of its own box: about that of all, what is small and far from there would be lost to rounding.
 pub(in crate::mesh) fn signed_volumes(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
     roots: &[usize],
 ) -> Vec<f64> {
-    let [low, high] = bounding_box(vertices);
-    let middle = scale(0.5, add(low, high));
-    let mut volumes = vec![0.0; triangles.len()];
+    let boxes = boxes(vertices, triangles, roots);
+    let mut six_volumes = vec![0.0; triangles.len()];
     for (t, &root) in triangles.iter().zip(roots) {
+        let [low, high] = boxes[root];
+        let middle = scale(0.5, add(low, high));
         let [a, b, c] = t.map(|v| sub(vertices[v as usize], middle));
-        volumes[root] += dot(a, cross(b, c)) / 6.0;
+        six_volumes[root] += dot(a, cross(b, c));
     }
-    volumes
+    six_volumes.into_iter().map(|six| six / 6.0).collect()
 }
