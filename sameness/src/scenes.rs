@@ -10,7 +10,7 @@ use langevin_rigid_scenes::scene::{Geometry, Scene, find};
 use crate::Line;
 use crate::fnv::Fnv;
 
-/// Of every kind of shape and model, thin and thick.
+/// Thick and thin, flat and bent, in air and in water; under the models separated and consistent.
 const NAMES: [&str; 6] = [
     "coin",
     "ellipsoid-water",
@@ -42,7 +42,7 @@ fn coarse(mut scene: Scene) -> Scene {
     if let Geometry::Shape { triangles, .. } = &mut scene.body.geometry {
         *triangles = TRIANGLES;
     }
-    // Noise has no bake: a scene of each model that has turbulence samples a history.
+    // A history is baked, noise is not.
     if scene.settings.model == Model::Consistent {
         scene.settings.turbulence = TurbulenceSource::History;
         scene.grid.cells = CELLS;
