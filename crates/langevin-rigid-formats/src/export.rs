@@ -150,7 +150,7 @@ pub enum ExportError {
 /// Writes a recording into `folder` as [`Format::file_name`] says; of an animation gives how far it strays.
 ///
 /// ```
-/// use langevin_rigid::{Bake, Fluid, Model, NoiseStream, Settings, State, Stepper};
+/// use langevin_rigid::{Bake, Fluid, Input, Model, Settings, State, Stepper};
 /// use langevin_rigid_bake::body::{BodySpec, bake_body};
 /// use langevin_rigid_bake::shapes::Shape;
 /// use langevin_rigid_formats::export::{Conditions, Format, Options, Recording, write};
@@ -163,7 +163,7 @@ pub enum ExportError {
 /// let mut states = vec![State::default()];
 /// for _ in 0..50 {
 ///     let mut state = states[states.len() - 1];
-///     stepper.step(&mut state, 0.002, &NoiseStream::default())?;
+///     stepper.step(&mut state, 0.002, &Input::default())?;
 ///     states.push(state);
 /// }
 /// let bake = Bake {

@@ -177,7 +177,7 @@ fn flattened(places: &[[f64; 3]], outer: usize) -> Option<Vec<[f64; 2]>> {
 fn is_fan(outline: &[[f64; 2]]) -> bool {
     let arm = |p: &[f64; 2]| [p[0] - outline[0][0], p[1] - outline[0][1]];
     let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
-    let length = |a: [f64; 2]| a[0].hypot(a[1]);
+    let length = |a: [f64; 2]| libm::hypot(a[0], a[1]);
     let first = arm(&outline[1]);
     let mut turned_back = false;
     outline[1..].windows(2).all(|pair| {
