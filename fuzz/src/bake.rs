@@ -1,6 +1,6 @@
 //! Bake files.
 
-use langevin_rigid::{Bake, Fluid, Model, Input, Settings, State, Stepper, TurbulenceSource};
+use langevin_rigid::{Bake, Fluid, Input, Model, Settings, State, Stepper, TurbulenceSource};
 
 /// Bytes before the payload: the magic, the version (u32), the payload's length (u64), the fingerprint.
 const HEADER: usize = 8 + 4 + 8 + 32;

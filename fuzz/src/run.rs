@@ -4,10 +4,10 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use langevin_rigid::Bake;
-use langevin_rigid_scenes::baking::bake_scene;
 use langevin_rigid_formats::export::{Format, Options, Recording, write};
-use langevin_rigid_scenes::scene::Scene;
 use langevin_rigid_formats::trajectory::{CSV_HEADER, Trajectory, read_csv, write_csv};
+use langevin_rigid_scenes::baking::bake_scene;
+use langevin_rigid_scenes::scene::Scene;
 use tempfile::TempDir;
 
 /// Reads a table, and what is written of it again.

@@ -80,21 +80,23 @@ fn about(counted: u64) -> LibraryBenchmarkConfig {
 
 // 100 steps of one body.
 #[library_benchmark]
-#[bench::consistent(args = (Model::Consistent), setup = stepper, config = about(319_475))]
-#[bench::separated(args = (Model::Separated), setup = stepper, config = about(588_354))]
+#[bench::consistent(args = (Model::Consistent), setup = stepper, config = about(332_569))]
+#[bench::separated(args = (Model::Separated), setup = stepper, config = about(634_062))]
 fn step(stepper: Stepper) -> State {
     let mut state = State::default();
     for _ in 0..STEPS {
         let noise = NoiseStream { seed: 1, body: 0 };
-        stepper.step(black_box(&mut state), 5e-3, &noise.into()).unwrap();
+        stepper
+            .step(black_box(&mut state), 5e-3, &noise.into())
+            .unwrap();
     }
     state
 }
 
 // 100 steps of each of 64 bodies, in the lanes that valgrind knows: four of doubles.
 #[library_benchmark]
-#[bench::consistent(args = (Model::Consistent), setup = many, config = about(5_728_158))]
-#[bench::separated(args = (Model::Separated), setup = many, config = about(9_399_828))]
+#[bench::consistent(args = (Model::Consistent), setup = many, config = about(5_879_832))]
+#[bench::separated(args = (Model::Separated), setup = many, config = about(9_992_438))]
 fn step_batch((stepper, mut batch): (Stepper, Batch)) -> Batch {
     for _ in 0..STEPS {
         stepper.step_batch(black_box(&mut batch), 5e-3).unwrap();

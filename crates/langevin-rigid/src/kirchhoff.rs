@@ -454,7 +454,9 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
             let (force, couple) = split(&load.force);
             linear = add(linear, force);
             angular = add(angular, couple);
-            work = work + load.fed;
+            if statics.gradient.is_some() {
+                work = work + load.fed;
+            }
         }
         Increment {
             theta: omega,
@@ -496,7 +498,9 @@ impl<F: Shape, R: Real> Kirchhoff<F, R> {
             linear = add(linear, force);
             let couple = add(mat_vec(&turned, couple), cross(y.displacement, force));
             angular = add(angular, couple);
-            work = work + load.fed;
+            if statics.gradient.is_some() {
+                work = work + load.fed;
+            }
         }
         Increment {
             theta: rotation_vector_rate(y.theta, omega),

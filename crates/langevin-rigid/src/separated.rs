@@ -134,16 +134,24 @@ impl<F: Shape, R: Real> Closure<F, R> {
             let at_part = relative.at(part.centre);
             let stream = part.stream(&self.constants, at_part, relative.omega, spin);
             let loads = part.loads(&stream).together();
-            fed = fed + relative.fed(part.centre, loads.force, loads.torque);
+            if gradient.is_some() {
+                fed = fed + relative.fed(part.centre, loads.force, loads.torque);
+            }
             sum.add(part.centre, &loads);
         }
         let (v, omega) = split(xi);
         // The rotational lift does no work, so this is the power of the resistances.
-        let power = dot(sum.force, v) + dot(sum.torque, omega) - fed;
+        let mut power = dot(sum.force, v) + dot(sum.torque, omega);
+        if gradient.is_some() {
+            power = power - fed;
+        }
         let separation = limited(sum.lost, relative.omega, power);
+        if gradient.is_some() {
+            fed = fed + dot(separation, relative.turning);
+        }
         Some(Load {
             force: join(sum.force, add(sum.torque, separation)),
-            fed: fed + dot(separation, relative.turning),
+            fed,
         })
     }
 
