@@ -16,3 +16,12 @@ pub trait Progress: Sync {
 }
 
 impl Progress for () {}
+
+/// Passes on only whether to go on: for a part of some work whose whole is reported.
+pub struct Silent<'a>(pub &'a dyn Progress);
+
+impl Progress for Silent<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use langevin_rigid::{Ending, Model, State, Stepper, TurbulenceSource, UnitSystem};
-use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_bake::progress::{Progress, Silent};
 use langevin_rigid_pictures::{Picture, PictureOptions, Pose, Subject, View, trajectory_picture};
 use langevin_rigid_scenes::baking::{self, Baked};
 use langevin_rigid_scenes::prepared::Prepared;
@@ -191,21 +191,12 @@ impl Setting {
 fn fall(prepared: &Prepared, seed: u64, progress: &dyn Progress) -> Option<Fall> {
     let mut release = prepared.release(0);
     release.noise.seed = seed;
-    let fall = prepared.drop(&release, &Quiet(progress));
+    let fall = prepared.drop(&release, &Silent(progress));
     (fall.ended != Ok(Ending::Stopped)).then(|| Fall {
         seed,
         ending: fall.ending(),
         states: fall.states,
     })
-}
-
-/// Passes on only whether to go on.
-struct Quiet<'a>(&'a dyn Progress);
-
-impl Progress for Quiet<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
 }
 
 /// One run.

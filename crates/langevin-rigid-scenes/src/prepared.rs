@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use langevin_rigid::{Body, Ending, Hull, NoiseStream, SetupError, State, StepError, Stepper, run};
-use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_bake::progress::{Progress, Silent};
 use rayon::prelude::*;
 
 use crate::advance::advance;
@@ -133,17 +133,6 @@ impl Prepared {
             })
             .collect();
         falls.into_iter().flatten().collect()
-    }
-}
-
-/// Passes on only whether to go on.
-struct Silent<'a>(&'a dyn Progress);
-
-impl Progress for Silent<'_> {
-    fn report(&self, _: &str, _: f64) {}
-
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
     }
 }
 

@@ -295,7 +295,7 @@ impl<P: Precision> Pack<P> {
     }
 
     /// What acts on its bodies, as `inputs` tells; none where nothing does.
-    pub(crate) fn forced(&self, inputs: &mut dyn FnMut(u32, &State) -> Input) -> Option<Forced<P>> {
+    pub(crate) fn forced(&self, inputs: &mut Inputs<'_>) -> Option<Forced<P>> {
         let mut each = [Input::default(); PACK];
         for (place, input) in each.iter_mut().enumerate().take(self.taken) {
             *input = inputs(self.bodies[place], &self.state(place));

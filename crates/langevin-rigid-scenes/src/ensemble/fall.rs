@@ -103,22 +103,30 @@ impl Setup<'_> {
                 Start::Over(fall) => end(fall),
             }
         }
+        let mut before = Vec::with_capacity(falling.len());
         let mut steps = 0u32;
         while !falling.is_empty() {
             if steps.is_multiple_of(PATIENCE) && cancelled() {
                 break;
             }
             steps = steps.wrapping_add(1);
-            self.step(&mut batch, &mut falling, &mut end);
+            before.clear();
+            before.extend((0..falling.len()).filter_map(|place| batch.state(place)));
+            self.step(&mut batch, &before, &mut falling, &mut end);
         }
         ended.sort_by_key(|fall| fall.run);
         ended
     }
 
-    /// One step of all that fall, and the end of those whose last it is.
-    fn step(&self, batch: &mut Batch, falling: &mut Vec<Falling>, end: &mut impl FnMut(Fall)) {
+    /// One step of all that fall from the states `before`, and the end of those whose last it is.
+    fn step(
+        &self,
+        batch: &mut Batch,
+        before: &[State],
+        falling: &mut Vec<Falling>,
+        end: &mut impl FnMut(Fall),
+    ) {
         let (scene, stepper) = (self.prepared.scene(), self.prepared.stepper());
-        let before: Vec<State> = (0..falling.len()).filter_map(|i| batch.state(i)).collect();
         let stopped = stepper.step_batch(batch, scene.time_step).err();
         let stopped = stopped.map_or_else(Vec::new, |error| error.bodies);
         // Backwards, as the last takes the place of one that leaves.
