@@ -225,6 +225,7 @@ mod tests {
         assert!((0.003..0.006).contains(&error.estimate), "{error:?}");
     }
 
+    #[cfg(feature = "meshopt")]
     #[test]
     fn the_estimate_of_a_proxy_bounds_its_error() {
         let shapes = [

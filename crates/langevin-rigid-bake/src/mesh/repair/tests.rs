@@ -358,6 +358,7 @@ fn what_is_lost_and_made_is_said() {
 }
 
 /// Two unit cubes half in each other, one of them inside out: together 1.5 m³.
+#[cfg(feature = "meshopt")]
 #[test]
 fn closed_parts_that_meet_become_one() {
     let mut second = shifted(&cube(12), [0.5, 0.0, 0.0], 1.0);
@@ -541,6 +542,7 @@ fn steps_to_within(mesh: &Mesh, share: f64) -> Vec<Step> {
     repaired.steps
 }
 
+#[cfg(feature = "meshopt")]
 #[test]
 fn it_simplifies_last() {
     let ball = Shape::Ellipsoid {

@@ -151,6 +151,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 }
 
 /// Two walls so near that triangles of few vertices would pass through each other.
+#[cfg(feature = "meshopt")]
 #[test]
 fn a_wrap_is_simplified_without_meeting_itself() {
     let ball = Shape::Ellipsoid {
