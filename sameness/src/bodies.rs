@@ -48,7 +48,7 @@ fn bent_rod() -> Body {
     let (length, radius) = (0.1, 0.008);
     let mut body = ellipsoid([radius, length, radius], 1000.0);
     let share = 1.0 / SLICES as f64;
-    body.parts = (0..SLICES)
+    body.slices = (0..SLICES)
         .map(|slice| {
             let place = 2.0 * (slice as f64 + 0.5) * share - 1.0;
             let mut part = Part {

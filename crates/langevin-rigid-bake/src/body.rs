@@ -1,13 +1,13 @@
 //! From a mesh to a baked body: mass properties, added mass, characteristic sizes.
 
-use langevin_rigid::{Body, BodyError, Part, Surface, shift_added_mass};
+use langevin_rigid::{Body, BodyError, Slice, Surface, shift_added_mass};
 
 use crate::added_mass::{AddedMass, AddedMassError, Options, added_mass};
 use crate::extents::{characteristic_thickness, half_extents};
 use crate::mass_properties::{MassError, MassProperties};
 use crate::mesh::TriMesh;
 use crate::progress::Progress;
-use crate::separation::{parts, separation};
+use crate::separation::{separation, slices};
 
 /// What a body is made of, beside its surface. Absent values follow from the mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -78,11 +78,11 @@ pub fn bake_body(
             .unwrap_or_else(|| characteristic_thickness(mesh, half_extents)),
         length: spec.length.unwrap_or(2.0 * half_extents[0]),
         separation: separation(mesh, &added),
-        parts: parts(mesh, &added)
+        slices: slices(mesh, &added)
             .into_iter()
-            .map(|part| Part {
-                centre: from_centre(part.centre),
-                ..part
+            .map(|slice| Slice {
+                centre: from_centre(slice.centre),
+                ..slice
             })
             .collect(),
         surface: Surface {

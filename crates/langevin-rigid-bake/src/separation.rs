@@ -1,13 +1,13 @@
 //! Tensors of the closure for separated flow, baked from the shape and its surface potentials.
 //!
 //! [`separation`] is the entry: drag areas from a surface-pressure model ([`pressure_drag`]),
-//! extents, the slices of a long body ([`parts`]), and the Stokes resistance of the ellipsoid with the body's half-extents
+//! extents, the slices of a long body ([`slices`]), and the Stokes resistance of the ellipsoid with the body's half-extents
 //! ([`stokes_translation`], [`stokes_rotation`]). Friction in a boundary layer depends on the
 //! Reynolds number and is in none of them.
 
 mod panels;
-mod parts;
 mod pressure;
+mod slices;
 
 use langevin_rigid::Separation;
 use langevin_rigid::linalg::{Mat3, Vec3};
@@ -19,8 +19,8 @@ use crate::mesh::TriMesh;
 use panels::Panels;
 
 pub use langevin_rigid::{stokes_rotation, stokes_translation};
-pub use parts::parts;
 pub use pressure::PressureDrag;
+pub use slices::slices;
 
 /// The tensors of a body, in the axes of its mesh, referring to the centroid of its volume.
 ///

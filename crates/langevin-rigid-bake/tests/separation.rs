@@ -14,7 +14,7 @@ use langevin_rigid::Separation;
 use langevin_rigid_bake::TriMesh;
 use langevin_rigid_bake::added_mass::{Options, added_mass};
 use langevin_rigid_bake::separation::{
-    PressureDrag, parts, pressure_drag, separation, stokes_rotation, stokes_translation,
+    PressureDrag, pressure_drag, separation, slices, stokes_rotation, stokes_translation,
 };
 use langevin_rigid_bake::shapes::Shape;
 
@@ -270,9 +270,9 @@ fn the_slices_of_a_straight_body_add_up_to_it() {
     .mesh(1600)
     .unwrap();
     let added = added_mass(&lath, &Options::default(), &()).unwrap();
-    let (whole, slices) = (separation(&lath, &added), parts(&lath, &added));
+    let (whole, slices) = (separation(&lath, &added), slices(&lath, &added));
     assert_eq!(slices.len(), 4);
-    let sum = |f: &dyn Fn(&langevin_rigid::Part) -> f64| slices.iter().map(f).sum::<f64>();
+    let sum = |f: &dyn Fn(&langevin_rigid::Slice) -> f64| slices.iter().map(f).sum::<f64>();
     let broadside = sum(&|p| p.translation[1][1]);
     assert!(
         (broadside / added.tensor[1][1] - 1.0).abs() < 0.01,
@@ -298,5 +298,5 @@ fn a_body_as_wide_as_long_has_no_slices() {
     .mesh(600)
     .unwrap();
     let added = added_mass(&card, &Options::default(), &()).unwrap();
-    assert!(parts(&card, &added).is_empty());
+    assert!(slices(&card, &added).is_empty());
 }

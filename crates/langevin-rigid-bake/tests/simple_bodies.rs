@@ -82,19 +82,19 @@ impl Errors {
         self.entries("Stokes resistance", stokes, 0..3, 0.0);
         let stokes = [&f.stokes_rotation, &w.stokes_rotation];
         self.entries("Stokes resistance", stokes, 0..3, 0.0);
-        assert_eq!(found.parts.len(), wanted.parts.len(), "{shape:?}");
+        assert_eq!(found.slices.len(), wanted.slices.len(), "{shape:?}");
         let offset = |body: &Body| {
             body.centre_of_buoyancy
                 .iter()
                 .fold(0.0f64, |a, r| a.max(r.abs()))
         };
         self.note("centre of buoyancy", offset(found) / found.length);
-        let pitch = found.length / found.parts.len() as f64;
-        let mut wanted_parts = wanted.parts.clone();
+        let pitch = found.length / found.slices.len() as f64;
+        let mut wanted_slices = wanted.slices.clone();
         // The axis of a mesh has no sense.
-        let along = |p: &langevin_rigid::Part| p.centre.iter().sum::<f64>();
-        wanted_parts.sort_by(|a, b| along(a).total_cmp(&along(b)));
-        for (f, w) in found.parts.iter().zip(&wanted_parts) {
+        let along = |p: &langevin_rigid::Slice| p.centre.iter().sum::<f64>();
+        wanted_slices.sort_by(|a, b| along(a).total_cmp(&along(b)));
+        for (f, w) in found.slices.iter().zip(&wanted_slices) {
             for i in 0..3 {
                 self.note("slices' centres", (f.centre[i] - w.centre[i]) / pitch);
             }

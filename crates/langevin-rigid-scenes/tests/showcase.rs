@@ -45,7 +45,7 @@ fn sinking(states: &[State]) -> f64 {
 #[test]
 fn a_maple_seed_spins_itself_down() {
     let (scene, bake) = baked("maple-seed");
-    assert!(bake.body.parts.len() > 1);
+    assert!(bake.body.slices.len() > 1);
     for seed in 0..10 {
         let states = fall(&scene, &bake, seed, 4.0);
         let turns = late(&states, |s| s.world_angular_velocity()[1]) / std::f64::consts::TAU;
@@ -70,7 +70,7 @@ fn a_maple_seed_spins_itself_down() {
 #[test]
 fn without_its_slices_the_seed_turns_but_now_and_then() {
     let (scene, mut bake) = baked("maple-seed");
-    bake.body.parts.clear();
+    bake.body.slices.clear();
     let states = fall(&scene, &bake, 0, 4.0);
     let turns = late(&states, |s| s.world_angular_velocity()[1]) / std::f64::consts::TAU;
     assert!(turns.abs() < 10.0, "{turns} turns a second");

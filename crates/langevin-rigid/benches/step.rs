@@ -35,7 +35,7 @@ fn ellipsoid() -> Body {
         thickness: 0.02,
         length: 0.08,
         separation: Default::default(),
-        parts: vec![],
+        slices: vec![],
         surface: langevin_rigid::Surface::default(),
     }
 }

@@ -5,7 +5,7 @@
 //! hash of all before it. The payload is [`Body`], an optional [`TurbulenceHistory`], the error
 //! estimate and the warnings, field by field; lists carry their length (u32) before them.
 
-use crate::body::{Body, BodyError, Part, Separation, Surface};
+use crate::body::{Body, BodyError, Separation, Slice, Surface};
 use crate::turbulence::{HistoryError, TurbulenceHistory};
 
 /// The line ends catch transfers that rewrite text.
@@ -21,7 +21,7 @@ const CHECKSUM: usize = 8;
 /// # let body = Body { mass: 1.0, inertia: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 /// #     volume: 1.0, centre_of_buoyancy: [0.0; 3], added_mass: [[0.0; 6]; 6],
 /// #     half_extents: [1.0; 3], thickness: 1.0, length: 1.0, separation: Default::default(),
-/// #     parts: vec![], surface: Default::default() };
+/// #     slices: vec![], surface: Default::default() };
 /// let bake = Bake {
 ///     body, history: None, error_estimate: 1e-4, warnings: vec![], fingerprint: [0; 32],
 /// };
@@ -215,22 +215,22 @@ impl Writer {
         ] {
             self.numbers(tensor.as_flattened());
         }
-        self.parts(&body.parts);
+        self.slices(&body.slices);
         self.list(&body.surface.vertices);
         self.triangles(&body.surface.triangles);
         self.triangles(&body.surface.panels);
         self.list(&body.surface.potentials);
     }
 
-    fn parts(&mut self, parts: &[Part]) {
-        self.count(parts.len());
-        for part in parts {
-            self.numbers(&part.centre);
+    fn slices(&mut self, slices: &[Slice]) {
+        self.count(slices.len());
+        for slice in slices {
+            self.numbers(&slice.centre);
             for tensor in [
-                &part.translation,
-                &part.rotation,
-                &part.drag_area,
-                &part.extents,
+                &slice.translation,
+                &slice.rotation,
+                &slice.drag_area,
+                &slice.extents,
             ] {
                 self.numbers(tensor.as_flattened());
             }
@@ -249,8 +249,8 @@ impl Writer {
 
 struct Reader<'a>(&'a [u8]);
 
-/// Bytes of a part: a point and four tensors.
-const PART: usize = 8 * (3 + 4 * 9);
+/// Bytes of a slice: a point and four tensors.
+const SLICE: usize = 8 * (3 + 4 * 9);
 
 const SHORT: BakeError = BakeError::Contents("it ends within a field");
 
@@ -335,7 +335,7 @@ impl Reader<'_> {
                 stokes_translation: self.matrix()?,
                 stokes_rotation: self.matrix()?,
             },
-            parts: self.items(PART, Self::part)?,
+            slices: self.items(SLICE, Self::slice)?,
             surface: Surface {
                 vertices: self.list()?,
                 triangles: self.triangles()?,
@@ -345,8 +345,8 @@ impl Reader<'_> {
         })
     }
 
-    fn part(&mut self) -> Result<Part, BakeError> {
-        Ok(Part {
+    fn slice(&mut self) -> Result<Slice, BakeError> {
+        Ok(Slice {
             centre: self.numbers()?,
             translation: self.matrix()?,
             rotation: self.matrix()?,
@@ -395,9 +395,9 @@ mod tests {
             thickness: 2.0,
             length: 6.0,
             separation: Default::default(),
-            parts: vec![Part {
+            slices: vec![Slice {
                 centre: [0.1, 0.2, 0.3],
-                ..Part::default()
+                ..Slice::default()
             }],
             surface: Surface {
                 vertices: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],

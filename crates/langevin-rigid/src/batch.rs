@@ -1,5 +1,7 @@
 //! Many bodies of one shape: a structure of arrays that steps in SIMD lanes.
 
+mod step;
+
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::equations::{Equations, Noise, Stepped};
@@ -8,9 +10,9 @@ use crate::kirchhoff::Motion;
 use crate::lanes::{Doubles, Lanes, Singles};
 use crate::linalg::{Vec3, each, join};
 use crate::noise::{Counter, NoiseStream};
-use crate::shape::{General, Shape, Symmetric};
 use crate::state::State;
 use crate::stepper::{StepError, Stepper};
+use crate::symmetry::{General, Symmetric, Symmetry};
 
 /// Bodies in a [`Pack`]: a multiple of the lanes of every processor.
 const PACK: usize = 16;
@@ -335,7 +337,7 @@ fn put<P: Precision, const N: usize>(to: &mut [[P; PACK]; N], place: usize, from
 }
 
 #[inline(always)]
-fn step_packs<S: Simd, L: Lanes<S>, F: Shape>(
+fn step_packs<S: Simd, L: Lanes<S>, F: Symmetry>(
     simd: S,
     stepper: &Stepper,
     packs: &mut [Pack<L::Scalar>],
@@ -361,7 +363,7 @@ fn step_packs<S: Simd, L: Lanes<S>, F: Shape>(
     reason = "the body of a loop, for processors of any width"
 )]
 #[inline(always)]
-fn step_lanes<S: Simd, L: Lanes<S>, F: Shape>(
+fn step_lanes<S: Simd, L: Lanes<S>, F: Symmetry>(
     simd: S,
     stepper: &Stepper,
     equations: &Equations<F, L>,
@@ -492,7 +494,7 @@ mod tests {
             thickness: 0.1,
             length: 0.6,
             separation: Default::default(),
-            parts: vec![],
+            slices: vec![],
             surface: Default::default(),
         };
         for i in 0..6 {

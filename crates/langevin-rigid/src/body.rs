@@ -51,7 +51,7 @@ pub struct Body {
     /// What separated flow depends on.
     pub separation: Separation,
     /// Slices along a long body, each with its own loads; none if the body moves as one.
-    pub parts: Vec<Part>,
+    pub slices: Vec<Slice>,
     /// The body's surface.
     pub surface: Surface,
 }
@@ -73,7 +73,7 @@ pub struct Separation {
 /// A slice of a long body, in body axes: what the closure for separated flow needs of it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Part {
+pub struct Slice {
     /// Where its loads act, from the centre of mass (m).
     pub centre: Vec3,
     /// Its share of the translational added mass per unit fluid density (m^3).
@@ -117,20 +117,20 @@ pub enum BodyError {
         value: f64,
     },
     /// A quantity has an entry that is infinite or not a number.
-    #[error("{} {name} with an entry that is not finite; bake the body again", owner(.part))]
+    #[error("{} {name} with an entry that is not finite; bake the body again", owner(.slice))]
     NotFinite {
         /// Name of the quantity.
         name: &'static str,
         /// Number of the slice that it belongs to, from zero; the body's own if none.
-        part: Option<usize>,
+        slice: Option<usize>,
     },
     /// A tensor of resistances, extents or added mass has a negative eigenvalue or is not symmetric.
-    #[error("{} {name} that is no symmetric positive tensor; bake the body again", owner(.part))]
+    #[error("{} {name} that is no symmetric positive tensor; bake the body again", owner(.slice))]
     NotPositiveTensor {
         /// Name of the quantity.
         name: &'static str,
         /// Number of the slice that it belongs to, from zero; the body's own if none.
-        part: Option<usize>,
+        slice: Option<usize>,
     },
     /// The surface is not made of the vertices that it has.
     #[error(
@@ -139,7 +139,7 @@ pub enum BodyError {
     Surface,
     /// The body has more slices than [`MOST_SLICES`].
     #[error("the body has {0} slices and can have {MOST_SLICES} at most; bake the body again")]
-    TooManyParts(usize),
+    TooManySlices(usize),
     /// The inertia has no inverse or is not symmetric.
     #[error(
         "the body's inertia is not a symmetric positive definite matrix; check its units (kg m^2) and its rows"
@@ -181,11 +181,11 @@ impl Body {
             return Err(BodyError::AddedMass);
         }
         self.separation.check()?;
-        if self.parts.len() > MOST_SLICES {
-            return Err(BodyError::TooManyParts(self.parts.len()));
+        if self.slices.len() > MOST_SLICES {
+            return Err(BodyError::TooManySlices(self.slices.len()));
         }
-        for (number, part) in self.parts.iter().enumerate() {
-            part.check(number)?;
+        for (number, slice) in self.slices.iter().enumerate() {
+            slice.check(number)?;
         }
         self.surface.check()
     }
@@ -233,7 +233,7 @@ impl Separation {
     }
 }
 
-impl Part {
+impl Slice {
     fn check(&self, number: usize) -> Result<(), BodyError> {
         finite("centre", Some(number), &self.centre)?;
         for (name, tensor) in [
@@ -261,28 +261,28 @@ impl Surface {
 }
 
 /// How an error begins that is about the body or about one of its slices.
-fn owner(part: &Option<usize>) -> String {
-    match part {
+fn owner(slice: &Option<usize>) -> String {
+    match slice {
         None => "the body has".into(),
         Some(number) => format!("slice {number} of the body (from 0) has"),
     }
 }
 
-fn finite(name: &'static str, part: Option<usize>, numbers: &[f64]) -> Result<(), BodyError> {
+fn finite(name: &'static str, slice: Option<usize>, numbers: &[f64]) -> Result<(), BodyError> {
     match numbers.iter().all(|x| x.is_finite()) {
         true => Ok(()),
-        false => Err(BodyError::NotFinite { name, part }),
+        false => Err(BodyError::NotFinite { name, slice }),
     }
 }
 
 /// Checks that a tensor is finite, symmetric and without negative eigenvalues, to rounding.
-fn positive(name: &'static str, part: Option<usize>, tensor: &Mat3) -> Result<(), BodyError> {
-    finite(name, part, tensor.as_flattened())?;
+fn positive(name: &'static str, slice: Option<usize>, tensor: &Mat3) -> Result<(), BodyError> {
+    finite(name, slice, tensor.as_flattened())?;
     let ([least, _, largest], _) = eigen_symmetric(tensor);
     if symmetric(tensor) && least >= -1e-9 * largest.abs() {
         return Ok(());
     }
-    Err(BodyError::NotPositiveTensor { name, part })
+    Err(BodyError::NotPositiveTensor { name, slice })
 }
 
 /// Whether a finite matrix is symmetric to rounding.

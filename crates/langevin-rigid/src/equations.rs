@@ -9,19 +9,19 @@ use crate::linalg::{
 };
 use crate::modes::Modes;
 use crate::noise::Counter;
-use crate::pace::{MOST_PARTS, Pace, Part};
+use crate::pace::{MOST_PARTS, Pace, Substep};
 use crate::real::Real;
 use crate::separated::Closure;
-use crate::shape::{General, Shape, Tensor};
+use crate::symmetry::{General, Symmetry, Tensor};
 
 /// Speed (m/s) and spin (rad/s) beyond which a run has diverged: no light body in a fluid comes near.
 pub const SPEED_LIMIT: f64 = 1e6;
 
 /// What stays the same from step to step.
 #[derive(Debug, Clone)]
-pub(crate) struct Equations<F: Shape = General, R: Real = f64> {
+pub(crate) struct Equations<F: Symmetry = General, R: Real = f64> {
     pub(crate) kirchhoff: Kirchhoff<F, R>,
-    pub(crate) loads: Loads<F, R>,
+    pub(crate) loads: FluidLoads<F, R>,
     pub(crate) pace: Pace<R>,
     /// Uniform velocity of the fluid, world frame; none in fluid at rest.
     pub(crate) current: Option<Vec3<R>>,
@@ -29,7 +29,7 @@ pub(crate) struct Equations<F: Shape = General, R: Real = f64> {
 
 /// What acts beyond Kirchhoff's terms; inline, so that putting it into lanes allocates nothing.
 #[derive(Debug, Clone)]
-pub(crate) enum Loads<F: Shape = General, R: Real = f64> {
+pub(crate) enum FluidLoads<F: Symmetry = General, R: Real = f64> {
     None,
     /// The Langevin loads, by Strang's splitting.
     Langevin(Langevin<F, R>),
@@ -38,7 +38,7 @@ pub(crate) enum Loads<F: Shape = General, R: Real = f64> {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) struct Separated<F: Shape = General, R: Real = f64> {
+pub(crate) struct Separated<F: Symmetry = General, R: Real = f64> {
     pub(crate) closure: Closure<F, R>,
     pub(crate) noise: Langevin<F, R>,
 }
@@ -61,14 +61,14 @@ pub(crate) struct Noise<R: Real> {
 
 impl Equations {
     /// The same for a body of shape `G` in the lanes of `like`.
-    pub(crate) fn lift<G: Shape, R: Real>(&self, like: R) -> Equations<G, R> {
+    pub(crate) fn lift<G: Symmetry, R: Real>(&self, like: R) -> Equations<G, R> {
         let total = &self.kirchhoff.total;
         Equations {
             kirchhoff: self.kirchhoff.lift(like),
             loads: match &self.loads {
-                Loads::None => Loads::None,
-                Loads::Langevin(langevin) => Loads::Langevin(langevin.lift(like, total)),
-                Loads::Separated(separated) => Loads::Separated(Separated {
+                FluidLoads::None => FluidLoads::None,
+                FluidLoads::Langevin(langevin) => FluidLoads::Langevin(langevin.lift(like, total)),
+                FluidLoads::Separated(separated) => FluidLoads::Separated(Separated {
                     closure: separated.closure.lift(like),
                     noise: separated.noise.lift(like, total),
                 }),
@@ -79,7 +79,7 @@ impl Equations {
     }
 }
 
-impl<F: Shape, R: Real> Equations<F, R> {
+impl<F: Symmetry, R: Real> Equations<F, R> {
     /// The motion after `dt` (s), in the world.
     #[inline(always)]
     pub(crate) fn step(
@@ -159,10 +159,10 @@ impl<F: Shape, R: Real> Equations<F, R> {
 
     /// The part of `left` that comes next, not under `least`.
     #[inline(always)]
-    fn part(&self, xi: &Vec6<R>, time: R, left: R, least: R, forced: Option<[R; 3]>) -> Part<R> {
+    fn part(&self, xi: &Vec6<R>, time: R, left: R, least: R, forced: Option<[R; 3]>) -> Substep<R> {
         let left = match &self.loads {
-            Loads::Langevin(langevin) => langevin.part(xi, time, left, least),
-            Loads::None | Loads::Separated(_) => left,
+            FluidLoads::Langevin(langevin) => langevin.part(xi, time, left, least),
+            FluidLoads::None | FluidLoads::Separated(_) => left,
         };
         self.pace.part(xi, left, least, forced)
     }
@@ -172,23 +172,23 @@ impl<F: Shape, R: Real> Equations<F, R> {
         &self,
         before: &Motion<R>,
         time: R,
-        part: &Part<R>,
+        part: &Substep<R>,
         number: u32,
         noise: &Noise<R>,
         statics: &Statics<R>,
     ) -> Motion<R> {
         match &self.loads {
-            Loads::None => {
+            FluidLoads::None => {
                 let mut motion = *before;
                 self.kirchhoff
                     .step(&mut motion, part.h, statics, |_, _| None);
                 motion
             }
-            Loads::Langevin(langevin) => {
+            FluidLoads::Langevin(langevin) => {
                 let normals = noise.counter.normals_of_part(noise.seed, number);
                 self.strang(langevin, before, time, part.h, &normals, statics)
             }
-            Loads::Separated(separated) => {
+            FluidLoads::Separated(separated) => {
                 let normals = noise.counter.normals_of_part(noise.seed, number).0;
                 self.separated(separated, before, time, part, &normals, statics)
             }
@@ -252,7 +252,7 @@ impl<F: Shape, R: Real> Equations<F, R> {
         separated: &Separated<F, R>,
         before: &Motion<R>,
         time: R,
-        part: &Part<R>,
+        part: &Substep<R>,
         normals: &[R; 6],
         statics: &Statics<R>,
     ) -> Motion<R> {

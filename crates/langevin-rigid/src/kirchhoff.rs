@@ -20,7 +20,7 @@ use crate::linalg::{
     solve_spd, split, sub, transposed_mat_vec, turn,
 };
 use crate::real::Real;
-use crate::shape::{General, Shape, Tensor};
+use crate::symmetry::{General, Symmetry, Tensor};
 
 /// Pose, and velocity relative to the fluid in the body frame.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +33,7 @@ pub(crate) struct Motion<R = f64> {
 
 /// The total tensor and the static loads of a body in a fluid.
 #[derive(Debug, Clone)]
-pub(crate) struct Kirchhoff<F: Shape = General, R: Real = f64> {
+pub(crate) struct Kirchhoff<F: Symmetry = General, R: Real = f64> {
     /// T = diag(m, J0) + A.
     pub(crate) total: F::Tensor<R>,
     pub(crate) inverse: F::Tensor<R>,
@@ -144,7 +144,7 @@ impl Kirchhoff {
     }
 
     /// The same for a body of shape `G` in the lanes of `like`.
-    pub(crate) fn lift<G: Shape, R: Real>(&self, like: R) -> Kirchhoff<G, R> {
+    pub(crate) fn lift<G: Symmetry, R: Real>(&self, like: R) -> Kirchhoff<G, R> {
         Kirchhoff {
             total: G::tensor(like, &self.total),
             inverse: G::tensor(like, &self.inverse),
@@ -170,7 +170,7 @@ impl Kirchhoff {
     }
 }
 
-impl<F: Shape, R: Real> Kirchhoff<F, R> {
+impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
     /// What acts whatever the motion, under `forcing`.
     ///
     /// In the frame that accelerates with the fluid by a, gravity is g - a: the body is pushed by its displaced mass

@@ -14,12 +14,12 @@ use crate::elementary::{SMALL_EXPONENT, expm1, small_expm1};
 use crate::linalg::{Mat6, Vec6, dot, each, eigen_generalized, norm, product, split, transpose};
 use crate::modes::{Axes, Eigenmodes, Modes, mul_columns};
 use crate::real::Real;
-use crate::shape::{General, Shape, Tensor};
+use crate::symmetry::{General, Symmetry, Tensor};
 use crate::turbulence::{Coefficients, PreparedSource};
 
 /// The Langevin part of a body's equations of motion.
 #[derive(Debug, Clone)]
-pub(crate) struct Langevin<F: Shape = General, R: Real = f64> {
+pub(crate) struct Langevin<F: Symmetry = General, R: Real = f64> {
     source: PreparedSource<R>,
     /// A (kg, kg m, kg m^2).
     added: F::Tensor<R>,
@@ -63,7 +63,7 @@ impl Langevin {
     }
 
     /// The same for a body of shape `G` in the lanes of `like`; `total` is the tensor T.
-    pub(crate) fn lift<G: Shape, R: Real>(&self, like: R, total: &Mat6) -> Langevin<G, R> {
+    pub(crate) fn lift<G: Symmetry, R: Real>(&self, like: R, total: &Mat6) -> Langevin<G, R> {
         Langevin {
             source: self.source.lift(like),
             added: G::tensor(like, &self.added),
@@ -85,7 +85,7 @@ impl Langevin {
     }
 }
 
-impl<F: Shape, R: Real> Langevin<F, R> {
+impl<F: Symmetry, R: Real> Langevin<F, R> {
     /// Exact solution over `h` with the coefficients frozen, from six standard normals, in modes.
     #[inline(always)]
     pub(crate) fn step(&self, modes: &Vec6<R>, time: R, h: R, normals: &[R; 6]) -> Vec6<R> {

@@ -89,11 +89,11 @@ mod run;
 mod runge_kutta;
 mod separated;
 mod settings;
-mod shape;
 mod simple_bodies;
 mod state;
 mod stepper;
 mod stokes;
+mod symmetry;
 #[cfg(test)]
 mod thin_card;
 pub mod turbulence;
@@ -101,7 +101,7 @@ mod wake;
 
 pub use bake::{Bake, BakeError};
 pub use batch::{Batch, BatchError, Pack, Precision};
-pub use body::{Body, BodyError, MOST_SLICES, Part, Separation, Surface, shift_added_mass};
+pub use body::{Body, BodyError, MOST_SLICES, Separation, Slice, Surface, shift_added_mass};
 pub use equations::SPEED_LIMIT;
 pub use fluid::{Fluid, GRAVITY};
 pub use input::{Flow, Input, Wrench};

@@ -1,9 +1,14 @@
 //! The loads on a body by cause.
 
+use crate::equations::FluidLoads;
 use crate::input::{Forcing, Input, Wrench};
-use crate::linalg::{Quat, Vec3, add, cross, join, mul, rotate, rotate_back, scale, split, sub};
+use crate::kirchhoff::{Motion, seen_from};
+use crate::langevin::Langevin;
+use crate::linalg::{
+    Quat, Vec3, Vec6, add, cross, join, matrix_of, mul, rotate, rotate_back, scale, split, sub,
+};
 use crate::state::State;
-use crate::stepper::Stepper;
+use crate::stepper::{Paper, Stepper, relative_to_turning};
 
 /// What acts on a body in a state, by cause; forces and torques about the centre of mass in the world frame.
 ///
@@ -122,6 +127,50 @@ impl Stepper {
                 orientation,
                 add(torque, cross(kirchhoff.centre_of_buoyancy, displaced)),
             ),
+        }
+    }
+
+    /// Adds what the model has beside Kirchhoff's terms and `input` to `loads`.
+    fn add_of_model(
+        &self,
+        motion: &Motion,
+        time: f64,
+        forcing: Option<&Forcing>,
+        loads: &mut Loads,
+    ) {
+        let world = |load: &Vec6| {
+            let (force, torque) = split(load);
+            Wrench {
+                force: rotate(motion.orientation, force),
+                torque: rotate(motion.orientation, torque),
+            }
+        };
+        let relaxing = |langevin: &Langevin| {
+            let relative = relative_to_turning(&motion.xi, motion.orientation, forcing);
+            world(&langevin.relaxation(&relative, time))
+        };
+        match (self.paper(), &self.equations.loads) {
+            (Some(Paper::RungeKutta4(None)), _) | (None, FluidLoads::None) => {}
+            (Some(Paper::RungeKutta4(Some(langevin))), _) => loads.turbulence = relaxing(langevin),
+            (Some(Paper::Published(published)), _) => {
+                let printed = published.loads(motion, time);
+                loads.buoyancy.torque = world(&printed.buoyancy).torque;
+                loads.added_mass = world(&printed.added_mass);
+                loads.turbulence = world(&printed.turbulence);
+            }
+            (None, FluidLoads::Langevin(langevin)) => loads.turbulence = relaxing(langevin),
+            (None, FluidLoads::Separated(separated)) => {
+                let matrix = matrix_of(motion.orientation);
+                let gradient = forcing.and_then(|forcing| forcing.gradient);
+                let gradient = gradient.map(|gradient| seen_from(&matrix, &gradient));
+                let causes = separated.closure.causes(&motion.xi, gradient.as_ref());
+                loads.drag = world(&causes.drag);
+                loads.normal_force = world(&causes.normal_force);
+                loads.rotational_lift = world(&causes.rotational_lift);
+                loads.damping = world(&causes.damping);
+                loads.lost_couple = world(&causes.lost_couple);
+                loads.friction = world(&causes.friction);
+            }
         }
     }
 }

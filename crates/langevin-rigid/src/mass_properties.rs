@@ -40,7 +40,7 @@ impl Body {
         body.mass = mass;
         body.inertia = inertia;
         body.added_mass = shift_added_mass(&self.added_mass, centre_of_mass);
-        let parts = body.parts.iter_mut().map(|part| &mut part.centre);
+        let parts = body.slices.iter_mut().map(|part| &mut part.centre);
         for point in std::iter::once(&mut body.centre_of_buoyancy)
             .chain(parts)
             .chain(&mut body.surface.vertices)

@@ -50,7 +50,7 @@ const IMPLICIT: f64 = 0.25;
 pub(crate) const MOST_PARTS: u32 = 256;
 
 /// The next part of a step.
-pub(crate) struct Part<R: Real> {
+pub(crate) struct Substep<R: Real> {
     /// Its length (s).
     pub(crate) h: R,
     /// Whether the resistances are too stiff for the explicit scheme.
@@ -96,7 +96,13 @@ impl<R: Real> Pace<R> {
     /// The part of `left` (s) that comes next, not under `least`; `forced` is what forcing adds to speed and spin in a
     /// second, and the size of the fluid's own gradient.
     #[inline(always)]
-    pub(crate) fn part(&self, xi: &Vec6<R>, left: R, least: R, forced: Option<[R; 3]>) -> Part<R> {
+    pub(crate) fn part(
+        &self,
+        xi: &Vec6<R>,
+        left: R,
+        least: R,
+        forced: Option<[R; 3]>,
+    ) -> Substep<R> {
         let (v, omega) = split(xi);
         let (mut speed, mut spin) = (norm(v) + self.gain * left, norm(omega));
         if let Some([faster, spun, gradient]) = forced {
@@ -107,7 +113,7 @@ impl<R: Real> Pace<R> {
         let explicit = left.of(EXPLICIT);
         let long = explicit.less(left * free.max(resisted));
         if !R::any(long) {
-            return Part {
+            return Substep {
                 h: left,
                 stiff: long,
             };
@@ -119,7 +125,7 @@ impl<R: Real> Pace<R> {
             left.of(IMPLICIT) / free,
             explicit / free.max(resisted),
         );
-        Part {
+        Substep {
             h: R::choose(long, wanted.max(least).min(left), left),
             stiff,
         }

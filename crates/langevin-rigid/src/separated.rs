@@ -10,7 +10,7 @@
 
 use arrayvec::ArrayVec;
 
-use crate::body::{Body, MOST_SLICES, Part, shift_added_mass};
+use crate::body::{Body, MOST_SLICES, Slice, shift_added_mass};
 use crate::elementary::exp;
 use crate::input::rotation_rate;
 use crate::kirchhoff::Load;
@@ -19,7 +19,7 @@ use crate::linalg::{
     mul, norm, scale, split, sub,
 };
 use crate::real::Real;
-use crate::shape::{Block, General, Shape};
+use crate::symmetry::{Block, General, Symmetry};
 
 /// The constants of the closure, the same for all bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,10 +65,10 @@ const SLENDER: f64 = 0.25;
 
 /// The closure of one body in one fluid.
 #[derive(Debug, Clone)]
-pub(crate) struct Closure<F: Shape = General, R: Real = f64> {
+pub(crate) struct Closure<F: Symmetry = General, R: Real = f64> {
     constants: SeparatedFlow,
     /// Slices; inline, so that putting them into lanes allocates nothing.
-    parts: ArrayVec<PartClosure<F, R>, MOST_SLICES>,
+    slices: ArrayVec<SliceClosure<F, R>, MOST_SLICES>,
     /// Hydrodynamic centre: the centroid of the volume, from the centre of mass (m).
     centre: Vec3<R>,
     /// Stokes resistance to translation and rotation about the centroid (kg/s, kg m^2/s).
@@ -84,17 +84,17 @@ impl Closure {
         constants: SeparatedFlow,
     ) -> Option<Self> {
         cholesky(&body.separation.extents)?;
-        let part = |part: &Part| PartClosure::new(part, body, density, &constants);
+        let slice = |slice: &Slice| SliceClosure::new(slice, body, density, &constants);
         let stokes = [
             body.separation.stokes_translation,
             body.separation.stokes_rotation,
         ];
         Some(Self {
             constants,
-            parts: if body.parts.is_empty() {
-                [part(&whole(body))].into_iter().collect()
+            slices: if body.slices.is_empty() {
+                [slice(&whole(body))].into_iter().collect()
             } else {
-                body.parts.iter().map(part).collect()
+                body.slices.iter().map(slice).collect()
             },
             centre: body.centre_of_buoyancy,
             stokes: stokes.map(|tensor| scaled(density * viscosity, &tensor)),
@@ -103,21 +103,21 @@ impl Closure {
 
     /// The second-largest half-extent of the body (m).
     pub(crate) fn length(&self) -> f64 {
-        1.0 / self.parts[0].per_length
+        1.0 / self.slices[0].per_length
     }
 
     /// The same for a body of shape `G` in the lanes of `like`.
-    pub(crate) fn lift<G: Shape, R: Real>(&self, like: R) -> Closure<G, R> {
+    pub(crate) fn lift<G: Symmetry, R: Real>(&self, like: R) -> Closure<G, R> {
         Closure {
             constants: self.constants,
-            parts: self.parts.iter().map(|part| part.lift(like)).collect(),
+            slices: self.slices.iter().map(|slice| slice.lift(like)).collect(),
             centre: lift(like, &self.centre),
             stokes: self.stokes.map(|tensor| G::block(like, &tensor)),
         }
     }
 }
 
-impl<F: Shape, R: Real> Closure<F, R> {
+impl<F: Symmetry, R: Real> Closure<F, R> {
     /// The closure's generalized force about the centre of mass, body frame, from the velocity
     /// relative to the fluid and the gradient of the fluid's velocity, body frame; none where the flow stays attached.
     ///
@@ -130,14 +130,14 @@ impl<F: Shape, R: Real> Closure<F, R> {
         let relative = Relative::new(xi, gradient);
         let spin = norm(relative.omega);
         let (mut sum, mut fed) = self.friction(&relative);
-        for part in &self.parts {
-            let at_part = relative.at(part.centre);
-            let stream = part.stream(&self.constants, at_part, relative.omega, spin);
-            let loads = part.loads(&stream).together();
+        for slice in &self.slices {
+            let at_slice = relative.at(slice.centre);
+            let stream = slice.stream(&self.constants, at_slice, relative.omega, spin);
+            let loads = slice.loads(&stream).together();
             if gradient.is_some() {
-                fed = fed + relative.fed(part.centre, loads.force, loads.torque);
+                fed = fed + relative.fed(slice.centre, loads.force, loads.torque);
             }
-            sum.add(part.centre, &loads);
+            sum.add(slice.centre, &loads);
         }
         let (v, omega) = split(xi);
         // The rotational lift does no work, so this is the power of the resistances.
@@ -163,10 +163,10 @@ impl<F: Shape, R: Real> Closure<F, R> {
         let spin = norm(relative.omega);
         let [translation, rotation] = &self.stokes;
         let mut sum = about_centre_of_mass(self.centre, &translation.matrix(), &rotation.matrix());
-        for part in &self.parts {
-            let at_part = relative.at(part.centre);
-            let stream = part.stream(&self.constants, at_part, relative.omega, spin);
-            let resistance = part.resistance(&stream);
+        for slice in &self.slices {
+            let at_slice = relative.at(slice.centre);
+            let stream = slice.stream(&self.constants, at_slice, relative.omega, spin);
+            let resistance = slice.resistance(&stream);
             for i in 0..6 {
                 for j in 0..6 {
                     sum[i][j] = sum[i][j] + resistance[i][j];
@@ -290,18 +290,18 @@ impl Closure {
         let (friction, _) = self.friction(&relative);
         causes.friction = join(friction.force, friction.torque);
         let mut rest: Vec6 = std::array::from_fn(|i| load.force[i] - causes.friction[i]);
-        for part in &self.parts {
-            let at_part = relative.at(part.centre);
+        for slice in &self.slices {
+            let at_slice = relative.at(slice.centre);
             let spin = norm(relative.omega);
-            let stream = part.stream(&self.constants, at_part, relative.omega, spin);
-            let loads = part.loads(&stream);
+            let stream = slice.stream(&self.constants, at_slice, relative.omega, spin);
+            let loads = slice.loads(&stream);
             for (cause, force, torque) in [
                 (&mut causes.rotational_lift, loads.lift, [0.0; 3]),
                 (&mut causes.drag, negative(loads.drag), [0.0; 3]),
                 (&mut causes.normal_force, negative(loads.normal), [0.0; 3]),
                 (&mut causes.damping, [0.0; 3], loads.damping),
             ] {
-                let about_mass = join(force, add(torque, cross(part.centre, force)));
+                let about_mass = join(force, add(torque, cross(slice.centre, force)));
                 for i in 0..6 {
                     cause[i] += about_mass[i];
                     rest[i] -= about_mass[i];
@@ -324,13 +324,13 @@ pub(crate) struct Causes {
     pub(crate) friction: Vec6,
 }
 
-/// The body as its only part.
-fn whole(body: &Body) -> Part {
+/// The body as its only slice.
+fn whole(body: &Body) -> Slice {
     let about_centre = shift_added_mass(&body.added_mass, body.centre_of_buoyancy);
     let block = |k: usize| -> Mat3 {
         std::array::from_fn(|i| std::array::from_fn(|j| about_centre[k + i][k + j]))
     };
-    Part {
+    Slice {
         centre: body.centre_of_buoyancy,
         translation: block(0),
         rotation: block(3),
@@ -359,7 +359,7 @@ impl<R: Real> Loads<R> {
     }
 }
 
-/// What a part sees of the fluid.
+/// What a slice sees of the fluid.
 struct Stream<R: Real> {
     /// Velocity relative to the fluid at its centre (m/s), and angular velocity relative to it (rad/s).
     v: Vec3<R>,
@@ -372,8 +372,8 @@ struct Stream<R: Real> {
     damping: R,
 }
 
-/// Loads of a part, at and about its centre.
-struct PartLoads<R> {
+/// Loads of a slice, at and about its centre.
+struct SliceLoads<R> {
     /// Rotational lift (N).
     lift: Vec3<R>,
     /// Pressure drag and normal force, reversed (N).
@@ -385,7 +385,7 @@ struct PartLoads<R> {
     lost: Vec3<R>,
 }
 
-impl<R: Real> PartLoads<R> {
+impl<R: Real> SliceLoads<R> {
     #[inline(always)]
     fn together(&self) -> Loads<R> {
         Loads {
@@ -396,9 +396,9 @@ impl<R: Real> PartLoads<R> {
     }
 }
 
-/// A part with its tensors in the fluid.
+/// A slice with its tensors in the fluid.
 #[derive(Debug, Clone)]
-struct PartClosure<F: Shape = General, R: Real = f64> {
+struct SliceClosure<F: Symmetry = General, R: Real = f64> {
     centre: Vec3<R>,
     /// (A11 - mu 1) / lam, mu and lam the least and largest eigenvalue of A11.
     directed: F::Block<R>,
@@ -412,23 +412,23 @@ struct PartClosure<F: Shape = General, R: Real = f64> {
     rotation: F::Block<R>,
     /// Drag areas P times half the fluid's density (kg/m).
     drag_area: F::Block<R>,
-    /// Squared half-extents of the part and of the body (m^2).
+    /// Squared half-extents of the slice and of the body (m^2).
     extents: F::Block<R>,
     body_extents: F::Block<R>,
     /// One over the second-largest half-extent L of the body (1/m).
     per_length: R,
 }
 
-impl PartClosure {
-    fn new(part: &Part, body: &Body, density: f64, constants: &SeparatedFlow) -> Self {
-        let translation = scaled(density, &part.translation);
+impl SliceClosure {
+    fn new(slice: &Slice, body: &Body, density: f64, constants: &SeparatedFlow) -> Self {
+        let translation = scaled(density, &slice.translation);
         let ([mu, _, lam], _) = eigen_symmetric(&translation);
         let trace = translation[0][0] + translation[1][1] + translation[2][2];
         let spread = lam - mu;
         let per_largest = if lam > 0.0 { 1.0 / lam } else { 0.0 };
         let directed = spread > f64::NEGLIGIBLE * lam;
         Self {
-            centre: part.centre,
+            centre: slice.centre,
             directed: shifted(&translation, per_largest, -mu * per_largest),
             largest: lam,
             turning: if directed { 2.0 * lam / spread } else { 0.0 },
@@ -436,16 +436,16 @@ impl PartClosure {
                 constants.rotational_lift,
                 &shifted(&translation, -1.0, trace),
             ),
-            rotation: scaled(constants.rotational_damping * density, &part.rotation),
-            drag_area: scaled(0.5 * density, &part.drag_area),
-            extents: part.extents,
+            rotation: scaled(constants.rotational_damping * density, &slice.rotation),
+            drag_area: scaled(0.5 * density, &slice.drag_area),
+            extents: slice.extents,
             body_extents: body.separation.extents,
             per_length: 1.0 / body.half_extents[1],
         }
     }
 
-    fn lift<G: Shape, R: Real>(&self, like: R) -> PartClosure<G, R> {
-        PartClosure {
+    fn lift<G: Symmetry, R: Real>(&self, like: R) -> SliceClosure<G, R> {
+        SliceClosure {
             centre: lift(like, &self.centre),
             directed: G::block(like, &self.directed),
             largest: like.of(self.largest),
@@ -460,8 +460,8 @@ impl PartClosure {
     }
 }
 
-impl<F: Shape, R: Real> PartClosure<F, R> {
-    /// What a part sees, from the velocity relative to the fluid at its centre; `spin` is |omega|.
+impl<F: Symmetry, R: Real> SliceClosure<F, R> {
+    /// What a slice sees, from the velocity relative to the fluid at its centre; `spin` is |omega|.
     #[inline(always)]
     fn stream(&self, c: &SeparatedFlow, v: Vec3<R>, omega: Vec3<R>, spin: R) -> Stream<R> {
         let (zero, one) = (spin.of(0.0), spin.of(1.0));
@@ -482,13 +482,13 @@ impl<F: Shape, R: Real> PartClosure<F, R> {
     }
 
     #[inline(always)]
-    fn loads(&self, stream: &Stream<R>) -> PartLoads<R> {
+    fn loads(&self, stream: &Stream<R>) -> SliceLoads<R> {
         let attachment = stream.attachment;
         let incidence = &stream.incidence;
         let couple = self.largest * (stream.speed * stream.speed);
         let normal = (attachment + attachment) * couple * incidence.leverage;
         let lift = cross(self.circulation.times(stream.omega), stream.v);
-        PartLoads {
+        SliceLoads {
             lift: scale(attachment, lift),
             drag: self.drag(stream.direction, stream.speed),
             normal: scale(normal, incidence.pull),
@@ -691,7 +691,7 @@ mod tests {
                 extents: diagonal(half_extents.map(|e| e * e)),
                 ..Separation::default()
             },
-            parts: vec![],
+            slices: vec![],
             surface: Surface::default(),
         };
         Closure::new(&body, 1.0, 0.0, SeparatedFlow::default()).unwrap()
@@ -723,8 +723,8 @@ mod tests {
         let v = [cos, -sin, 0.0];
         let (force, torque) = split(&closure.load(&join(v, [0.0; 3]), None).unwrap().force);
         // With the Munk couple that Kirchhoff's terms contribute.
-        let part = &closure.parts[0];
-        let munk = scale(part.largest, part.incidence(v).couple);
+        let slice = &closure.slices[0];
+        let munk = scale(slice.largest, slice.incidence(v).couple);
         let normal = force[1];
         (normal / (0.5 * area), (torque[2] + munk[2]) / normal / 2.0)
     }
@@ -769,16 +769,16 @@ mod tests {
             [0.3, 2.2, 0.7],
             [1.5, 0.1, 0.8],
         );
-        let part = &mut closure.parts[0];
-        part.centre = [0.2, -0.1, 0.3];
+        let slice = &mut closure.slices[0];
+        slice.centre = [0.2, -0.1, 0.3];
         let (s, c) = (0.6, 0.8);
         let turn = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
         for tensor in [
-            &mut part.directed,
-            &mut part.circulation,
-            &mut part.drag_area,
-            &mut part.extents,
-            &mut part.body_extents,
+            &mut slice.directed,
+            &mut slice.circulation,
+            &mut slice.drag_area,
+            &mut slice.extents,
+            &mut slice.body_extents,
         ] {
             let transposed = crate::linalg::transpose(&turn);
             *tensor = crate::linalg::product(&crate::linalg::product(&turn, tensor), &transposed);
@@ -795,7 +795,7 @@ mod tests {
             let xi: Vec6 = std::array::from_fn(|i| if i < 3 { z[i] } else { 4.0 * z[i] });
             let load = closure.load(&xi, None).unwrap().force;
             let (v, omega) = split(&xi);
-            let at_centre = add(v, cross(omega, closure.parts[0].centre));
+            let at_centre = add(v, cross(omega, closure.slices[0].centre));
             let power: f64 = (0..6).map(|i| load[i] * xi[i]).sum();
             let scale = norm(at_centre).powi(3) + norm(omega).powi(3);
             assert!(power <= 1e-12 * scale, "state {n}: power {power}");
@@ -814,11 +814,11 @@ mod tests {
             let (values, _) = eigen_symmetric(&resistance);
             assert!(values[0] >= -1e-12 * values[5], "{values:?}");
             // What is left is the rotational lift and the lost couple, of which the first does no work.
-            let part = &closure.parts[0];
+            let slice = &closure.slices[0];
             let (v, omega) = split(&xi);
-            let at_centre = add(v, cross(omega, part.centre));
-            let stream = part.stream(&closure.constants, at_centre, omega, norm(omega));
-            let fed = dot(part.loads(&stream).lost, omega);
+            let at_centre = add(v, cross(omega, slice.centre));
+            let stream = slice.stream(&closure.constants, at_centre, omega, norm(omega));
+            let fed = dot(slice.loads(&stream).lost, omega);
             let power: f64 = (0..6).map(|i| free[i] * xi[i]).sum();
             let size = norm(at_centre).powi(3) + norm(omega).powi(3);
             let left = power - fed;

@@ -11,7 +11,7 @@ mod ellipsoid;
 mod slices;
 mod surface;
 
-use crate::body::{Body, BodyError, Part, Separation, Surface};
+use crate::body::{Body, BodyError, Separation, Slice, Surface};
 use crate::linalg::Vec3;
 use crate::stokes::{stokes_rotation, stokes_translation};
 
@@ -160,7 +160,7 @@ struct Form {
     thickness: f64,
     /// Drag areas (m^2).
     drag_areas: Vec3,
-    parts: Vec<Part>,
+    slices: Vec<Slice>,
     surface: Surface,
 }
 
@@ -185,7 +185,7 @@ impl Form {
                 stokes_translation: diagonal(stokes_translation(self.half_extents)),
                 stokes_rotation: diagonal(stokes_rotation(self.half_extents)),
             },
-            parts: self.parts,
+            slices: self.slices,
             surface: self.surface,
         };
         body.check()?;
@@ -289,31 +289,31 @@ mod tests {
                 long.added_mass[3 + i][3 + i],
                 turned.added_mass[3 + j][3 + j]
             );
-            for (p, q) in long.parts.iter().zip(&turned.parts) {
+            for (p, q) in long.slices.iter().zip(&turned.slices) {
                 assert_eq!(p.translation[i][i], q.translation[j][j]);
                 assert!((p.rotation[i][i] / q.rotation[j][j] - 1.0).abs() < 1e-12);
                 assert_eq!(p.extents[i][i], q.extents[j][j]);
             }
         }
         let [disc, rod] = [Body::disc(0.1, 0.7, 500.0), Body::cylinder(0.1, 0.7, 500.0)];
-        assert_eq!(disc.unwrap().parts.len(), rod.unwrap().parts.len());
+        assert_eq!(disc.unwrap().slices.len(), rod.unwrap().slices.len());
     }
 
     #[test]
     fn slices_of_an_ellipsoid_add_up_to_it() {
         let body = Body::ellipsoid([0.02, 0.3, 0.05], 500.0).unwrap();
-        assert_eq!(body.parts.len(), 6);
+        assert_eq!(body.slices.len(), 6);
         for i in 0..3 {
-            let translation: f64 = body.parts.iter().map(|p| p.translation[i][i]).sum();
+            let translation: f64 = body.slices.iter().map(|p| p.translation[i][i]).sum();
             assert!((translation / body.added_mass[i][i] - 1.0).abs() < 1e-3);
-            let drag: f64 = body.parts.iter().map(|p| p.drag_area[i][i]).sum();
+            let drag: f64 = body.slices.iter().map(|p| p.drag_area[i][i]).sum();
             assert!((drag / body.separation.drag_area[i][i] - 1.0).abs() < 1e-9);
             // A rotation moves every slice with its centre too: along x about z, along z about x.
-            let carried = |p: &Part| {
+            let carried = |p: &Slice| {
                 let crosswise = [p.translation[2][2], 0.0, p.translation[0][0]][i];
                 p.rotation[i][i] + crosswise * p.centre[1] * p.centre[1]
             };
-            let rotation: f64 = body.parts.iter().map(carried).sum();
+            let rotation: f64 = body.slices.iter().map(carried).sum();
             let error = rotation / body.added_mass[3 + i][3 + i] - 1.0;
             assert!(error.abs() < 0.15, "axis {i}: {error}");
         }

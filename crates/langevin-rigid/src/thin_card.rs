@@ -47,7 +47,7 @@ impl Card {
             thickness: 1.0,
             length: 1.0,
             separation: Separation::default(),
-            parts: vec![],
+            slices: vec![],
             surface: Surface::default(),
         };
         let fluid = Fluid {

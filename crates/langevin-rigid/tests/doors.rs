@@ -6,7 +6,7 @@ mod common;
 use common::{chiral, distance, ellipsoid, frozen, norm};
 use langevin_rigid::linalg::quat_from_rotation_vector;
 use langevin_rigid::{
-    Batch, Body, Flow, Fluid, Input, Integrator, Model, NoiseStream, Part, Settings, State,
+    Batch, Body, Flow, Fluid, Input, Integrator, Model, NoiseStream, Settings, Slice, State,
     StepError, Stepper, TurbulenceSource, Wrench,
 };
 
@@ -73,14 +73,14 @@ fn in_slices(mut body: Body) -> Body {
     let block = |k: usize| -> [[f64; 3]; 3] {
         std::array::from_fn(|i| std::array::from_fn(|j| body.added_mass[k + i][k + j]))
     };
-    let parts = [-0.03, 0.0, 0.03].map(|z| Part {
+    let slices = [-0.03, 0.0, 0.03].map(|z| Slice {
         centre: [0.0, 0.0, z],
         translation: third(block(0)),
         rotation: third(third(block(3))),
         drag_area: third(body.separation.drag_area),
         extents: body.separation.extents,
     });
-    body.parts = parts.to_vec();
+    body.slices = slices.to_vec();
     body
 }
 

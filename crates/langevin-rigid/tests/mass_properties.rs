@@ -52,7 +52,7 @@ fn there_and_back_is_the_identity() {
         for (i, (a, b)) in was.iter().zip(is).enumerate() {
             assert!((a - b).abs() < 1e-15 * largest(was), "entry {i}: {a} {b}");
         }
-        for (a, b) in body.parts.iter().zip(&back.parts) {
+        for (a, b) in body.slices.iter().zip(&back.slices) {
             assert!(distance(a.centre, b.centre) < 1e-17);
         }
         for (a, b) in body.surface.vertices.iter().zip(&back.surface.vertices) {

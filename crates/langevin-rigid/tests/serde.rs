@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid::{
-    Body, BodyError, Flow, Fluid, Input, Integrator, Loads, Model, NoiseStream, Part,
-    SeparatedFlow, Separation, Settings, SetupError, State, Stepper, Surface, TurbulenceHistory,
+    Body, BodyError, Flow, Fluid, Input, Integrator, Loads, Model, NoiseStream, SeparatedFlow,
+    Separation, Settings, SetupError, Slice, State, Stepper, Surface, TurbulenceHistory,
     TurbulenceSource, UnitSystem, Wrench,
 };
 use serde::Serialize;
@@ -63,8 +63,8 @@ fn body() -> Body {
             stokes_translation: matrix(3),
             stokes_rotation: matrix(4),
         },
-        parts: vec![
-            Part {
+        slices: vec![
+            Slice {
                 centre: numbers(5),
                 translation: matrix(6),
                 rotation: matrix(7),

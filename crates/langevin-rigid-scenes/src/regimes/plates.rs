@@ -91,7 +91,7 @@ fn disc(inertia_ratio: f64, h: f64) -> Body {
             stokes_translation: diagonal([32.0 / 3.0 * r, 16.0 * r, 32.0 / 3.0 * r]),
             stokes_rotation: diagonal([32.0 / 3.0 * r.powi(3); 3]),
         },
-        parts: vec![],
+        slices: vec![],
         surface: disc_surface(r, h),
     }
 }
@@ -134,7 +134,7 @@ fn strip(inertia_ratio: f64, h: f64) -> Body {
             // Jeffery (1922), in the limit of a long ellipsoid.
             stokes_rotation: diagonal([0.0, 0.0, 2.0 * PI * (a * a + b * b) * SPAN]),
         },
-        parts: vec![],
+        slices: vec![],
         surface: strip_surface(a, b),
     }
 }

@@ -32,14 +32,14 @@ pub(super) fn form(size: Vec3) -> Form {
         }
     });
     let drag_areas = drag_areas(size, [0, 1, 2].map(translation));
-    let parts = Slices::of(half_extents, half).map_or(vec![], |slices| {
+    let slices = Slices::of(half_extents, half).map_or(vec![], |slices| {
         let straight = Straight {
             added_mass,
             drag_areas,
             half,
             end_loss: 0.49,
         };
-        straight.parts(&slices, |axis, with_end| {
+        straight.slices(&slices, |axis, with_end| {
             let (own, other) = (size[axis], size[3 - axis - slices.axis]);
             let [top, side] = [other, own].map(|s| 2.0 * s * slices.pitch());
             let cap = if with_end { own * other } else { 0.0 };
@@ -54,7 +54,7 @@ pub(super) fn form(size: Vec3) -> Form {
         half_extents,
         thickness: 3.0 / (1.0 / x + 1.0 / y + 1.0 / z),
         drag_areas,
-        parts,
+        slices,
         surface: surface::cuboid(half),
     }
 }

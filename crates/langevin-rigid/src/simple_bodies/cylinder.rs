@@ -33,7 +33,7 @@ pub(super) fn form(radius: f64, length: f64, axis: usize) -> Form {
     });
     let [end, side] = drag_coefficients(ratio);
     let drag_areas = along_axis(end * PI * r * r, side * 2.0 * r * length);
-    let parts = Slices::of(half_extents, half).map_or(vec![], |slices| {
+    let slices = Slices::of(half_extents, half).map_or(vec![], |slices| {
         let wall = 2.0 * r * slices.pitch();
         let straight = Straight {
             added_mass,
@@ -41,7 +41,7 @@ pub(super) fn form(radius: f64, length: f64, axis: usize) -> Form {
             half,
             end_loss: 0.43,
         };
-        straight.parts(&slices, |_, with_end| {
+        straight.slices(&slices, |_, with_end| {
             let cap = if with_end { r * r } else { 0.0 };
             r * r * (0.5 * wall + 0.25 * cap) / (wall + cap)
         })
@@ -53,7 +53,7 @@ pub(super) fn form(radius: f64, length: f64, axis: usize) -> Form {
         half_extents,
         thickness: 3.0 * r * length / (r + length),
         drag_areas,
-        parts,
+        slices,
         surface: surface::cylinder(r, 0.5 * length, axis),
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::slices::Slices;
 use super::{Form, diagonal, mean_where_degenerate, surface};
-use crate::body::Part;
+use crate::body::Slice;
 use crate::carlson::rd;
 use crate::linalg::Vec3;
 use crate::wake::{SLIP_QUANTILE, Wake};
@@ -37,8 +37,8 @@ pub(super) fn form(semi_axes: Vec3) -> Form {
         half_extents,
         thickness: 2.0 * a.min(b).min(c),
         drag_areas: pressure.each_ref().map(drag),
-        parts: Slices::of(half_extents, semi_axes)
-            .map_or(vec![], |slices| flow.parts(&slices, &pressure)),
+        slices: Slices::of(half_extents, semi_axes)
+            .map_or(vec![], |slices| flow.slices(&slices, &pressure)),
         surface: surface::ellipsoid(semi_axes),
     }
 }
@@ -153,23 +153,23 @@ impl Flow {
             .collect()
     }
 
-    fn parts(&self, slices: &Slices, pressure: &[Vec<Load>; 3]) -> Vec<Part> {
+    fn slices(&self, slices: &Slices, pressure: &[Vec<Load>; 3]) -> Vec<Slice> {
         let points = self.points(slices.axis);
         (0..slices.count)
-            .map(|k| Part {
+            .map(|k| Slice {
                 drag_area: diagonal(pressure.each_ref().map(|loads| {
                     let of = |load: &Load| load.drag * mirrored_share(slices, k, load.place);
                     loads.iter().map(of).sum()
                 })),
-                extents: diagonal(self.part_extents(slices, k, &points)),
-                ..self.part_loads(slices, k)
+                extents: diagonal(self.slice_extents(slices, k, &points)),
+                ..self.slice_loads(slices, k)
             })
             .collect()
     }
 
     /// Three times the mean squares over the surface of a slice, which for a plate are its squared half-extents;
     /// along the body the body's.
-    fn part_extents(&self, slices: &Slices, k: usize, points: &[Point]) -> Vec3 {
+    fn slice_extents(&self, slices: &Slices, k: usize, points: &[Point]) -> Vec3 {
         let weight = |p: &Point| p.area * mirrored_share(slices, k, p.place);
         let total: f64 = points.iter().map(weight).sum();
         std::array::from_fn(|i| {
@@ -186,7 +186,7 @@ impl Flow {
 
     /// Centre and added mass of a slice: the integrals over the surface of its share s of -phi n, which Gauss's
     /// theorem turns into integrals over the length.
-    fn part_loads(&self, slices: &Slices, k: usize) -> Part {
+    fn slice_loads(&self, slices: &Slices, k: usize) -> Slice {
         let l = slices.axis;
         let (m, n) = ((l + 1) % 3, (l + 2) % 3);
         let [a, b, c] = [l, m, n].map(|i| self.semi_axes[i]);
@@ -216,11 +216,11 @@ impl Flow {
         rotation[n] = integral(&|x, s, slope| {
             (slope * about_n(x) + s * dn) * m2(x) - s * about_n(x) * (x - centre)
         });
-        Part {
+        Slice {
             centre: slices.at(centre),
             translation: diagonal(translation.map(|t: f64| t.max(0.0))),
             rotation: diagonal(rotation.map(|r: f64| r.max(0.0))),
-            ..Part::default()
+            ..Slice::default()
         }
     }
 }

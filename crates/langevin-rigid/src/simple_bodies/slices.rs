@@ -4,7 +4,7 @@
 //! from one to the next, which keeps first moments exact.
 
 use super::diagonal;
-use crate::body::Part;
+use crate::body::Slice;
 use crate::linalg::Vec3;
 
 /// Length over width from which a body is cut.
@@ -117,11 +117,11 @@ impl Straight {
     ///
     /// `mean_square(axis, end)` is the mean square height (m^2) of the surface of a slice, with
     /// the body's end or without.
-    pub(super) fn parts(
+    pub(super) fn slices(
         &self,
         slices: &Slices,
         mean_square: impl Fn(usize, bool) -> f64,
-    ) -> Vec<Part> {
+    ) -> Vec<Slice> {
         let along = slices.axis;
         let across = [(along + 1) % 3, (along + 2) % 3];
         let loads = across.map(|axis| self.loads(slices, axis, across[0] + across[1] - axis));
@@ -153,7 +153,7 @@ impl Straight {
                     drag[axis] = self.drag_areas[axis] / slices.count as f64;
                     extents[axis] = 3.0 * mean_square(axis, end);
                 }
-                Part {
+                Slice {
                     centre: slices.at(centre),
                     translation: diagonal(translation),
                     rotation: diagonal(rotation),

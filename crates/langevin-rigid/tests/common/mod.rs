@@ -54,7 +54,7 @@ pub(crate) fn ellipsoid(axes: [f64; 3], density: f64) -> Body {
         thickness: 2.0 * half_extents[2],
         length: 2.0 * half_extents[0],
         separation: separation(axes),
-        parts: vec![],
+        slices: vec![],
         surface: Surface::default(),
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! A body with three planes of symmetry (an ellipsoid, a box, a coin, a sheet) has diagonal tensors in
 //! its own axes, and its step needs much less arithmetic. The equations are therefore written over a
-//! [`Shape`]: [`General`] or [`Symmetric`].
+//! [`Symmetry`]: [`General`] or [`Symmetric`].
 
 use std::fmt::Debug;
 
@@ -13,7 +13,7 @@ use crate::modes::{Axes, Eigenmodes, Modes};
 use crate::real::Real;
 
 /// How a body's tensors are kept and applied.
-pub(crate) trait Shape: Debug + Clone {
+pub(crate) trait Symmetry: Debug + Clone {
     /// A 6x6 tensor.
     type Tensor<R: Real>: Tensor<R> + Debug + Clone;
     /// A 3x3 tensor.
@@ -47,7 +47,7 @@ pub(crate) trait Block<R> {
 #[derive(Debug, Clone)]
 pub(crate) struct General;
 
-impl Shape for General {
+impl Symmetry for General {
     type Tensor<R: Real> = Mat6<R>;
     type Block<R: Real> = Mat3<R>;
     type Modes<R: Real> = Eigenmodes<R>;
@@ -90,7 +90,7 @@ impl<R: Real> Block<R> for Mat3<R> {
 #[derive(Debug, Clone)]
 pub(crate) struct Symmetric;
 
-impl Shape for Symmetric {
+impl Symmetry for Symmetric {
     type Tensor<R: Real> = Diagonal<R, 6>;
     type Block<R: Real> = Diagonal<R, 3>;
     type Modes<R: Real> = Axes<R>;
@@ -120,7 +120,7 @@ impl Symmetric {
             stokes_rotation,
         } = &body.separation;
         let of_body = [drag_area, extents, stokes_translation, stokes_rotation];
-        let of_parts = body.parts.iter().flat_map(|part| {
+        let of_parts = body.slices.iter().flat_map(|part| {
             [
                 &part.translation,
                 &part.rotation,

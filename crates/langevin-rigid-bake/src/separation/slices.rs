@@ -7,7 +7,7 @@
 //! to the next, which keeps first moments exact on any triangles.
 
 use langevin_rigid::linalg::{Mat3, Vec3, eigen_symmetric};
-use langevin_rigid::{MOST_SLICES, Part};
+use langevin_rigid::{MOST_SLICES, Slice};
 
 use super::panels::{Panel, Panels};
 use crate::added_mass::AddedMass;
@@ -26,25 +26,25 @@ const MOST: usize = MOST_SLICES;
 ///
 /// ```
 /// use langevin_rigid_bake::added_mass::{Options, added_mass};
-/// use langevin_rigid_bake::separation::parts;
+/// use langevin_rigid_bake::separation::slices;
 /// use langevin_rigid_bake::shapes::Shape;
 ///
 /// let lath = Shape::Box { size: [0.3, 0.002, 0.1] }.mesh(600)?;
 /// let added = added_mass(&lath, &Options::default(), &())?;
-/// let parts = parts(&lath, &added);
-/// assert_eq!(parts.len(), 3);
-/// let sum: f64 = parts.iter().map(|p| p.translation[1][1]).sum();
+/// let slices = slices(&lath, &added);
+/// assert_eq!(slices.len(), 3);
+/// let sum: f64 = slices.iter().map(|p| p.translation[1][1]).sum();
 /// assert!((sum / added.tensor[1][1] - 1.0).abs() < 0.01);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn parts(mesh: &TriMesh, added: &AddedMass) -> Vec<Part> {
+pub fn slices(mesh: &TriMesh, added: &AddedMass) -> Vec<Slice> {
     let Some(slicing) = Slicing::of(mesh) else {
         return vec![];
     };
     let panels = Panels::shorter_than(&added.surface, slicing.axis, slicing.pitch);
     let level = panels.mean_potentials();
     (0..slicing.count)
-        .map(|k| slicing.part(k, &panels, &level, added.reference))
+        .map(|k| slicing.slice(k, &panels, &level, added.reference))
         .collect()
 }
 
@@ -92,7 +92,7 @@ impl Slicing {
         (1.0 - (at - k as f64).abs()).max(0.0)
     }
 
-    fn part(&self, k: usize, panels: &Panels, level: &[f64; 6], centroid: Vec3) -> Part {
+    fn slice(&self, k: usize, panels: &Panels, level: &[f64; 6], centroid: Vec3) -> Slice {
         let nodes = || {
             panels.0.iter().flat_map(move |panel| {
                 (0..3).map(move |n| {
@@ -112,7 +112,7 @@ impl Slicing {
         let rotation = positive(&sum(nodes().map(|n| n.rotation(centre, lever))));
         let axes = PrincipalAxes::of(&translation);
         let share = |p: &Panel| p.middles.iter().map(|x| self.share(k, *x)).sum::<f64>() / 3.0;
-        Part {
+        Slice {
             centre,
             translation,
             rotation,
