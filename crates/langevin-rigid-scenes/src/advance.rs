@@ -3,13 +3,12 @@
 use langevin_rigid::{State, StepError, Stepper};
 
 use crate::prepared::Release;
-use crate::scene::{Scene, Tank};
+use crate::scene::Scene;
 
 /// Advances `state` by the scene's time step.
 ///
 /// While it is [carried](Scene::carried) the body moves with its release velocity and does not turn.
-/// The walls of a tank, around the release, hold the centre of mass: where it would pass one it stays at it, and loses the
-/// component of its velocity into the wall.
+/// The walls of a [tank](langevin_rigid::Tank), around the release, hold the centre of mass.
 ///
 /// # Errors
 /// Those of [`Stepper::step`], with `state` as it was.
@@ -20,12 +19,12 @@ pub fn advance(
     state: &mut State,
 ) -> Result<(), StepError> {
     if is_carried(scene, state) {
-        carry(state, scene.time_step);
+        state.carry(scene.time_step);
     } else {
         stepper.step(state, scene.time_step, &release.noise.into())?;
     }
     if let Some(tank) = &scene.tank {
-        hold(tank, release.state.position, state);
+        tank.hold(release.state.position, state);
     }
     Ok(())
 }
@@ -36,62 +35,12 @@ pub(crate) fn is_carried(scene: &Scene, state: &State) -> bool {
     state.time < scene.carried - 0.5 * scene.time_step
 }
 
-fn carry(state: &mut State, dt: f64) {
-    let velocity = state.world_velocity();
-    for (x, v) in state.position.iter_mut().zip(velocity) {
-        *x += v * dt;
-    }
-    state.time += dt;
-    state.step += 1;
-}
-
-/// Keeps the centre of mass between the walls around the release at `origin`.
-pub(crate) fn hold(tank: &Tank, origin: [f64; 3], state: &mut State) {
-    for axis in [0, 2] {
-        let away = state.position[axis] - origin[axis];
-        let half = 0.5 * tank.size[axis];
-        if away.abs() <= half {
-            continue;
-        }
-        state.position[axis] = origin[axis] + half.copysign(away);
-        let (mut velocity, spin) = (state.world_velocity(), state.world_angular_velocity());
-        if velocity[axis] * away > 0.0 {
-            velocity[axis] = 0.0;
-            state.set_world_velocities(velocity, spin);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use langevin_rigid::NoiseStream;
-    use langevin_rigid::linalg::quat_from_rotation_vector;
 
     use super::*;
     use crate::baking;
-
-    #[test]
-    fn a_wall_takes_only_the_velocity_into_it() {
-        let mut state = State {
-            position: [0.3, 0.0, 0.0],
-            orientation: quat_from_rotation_vector([0.3, 0.4, 0.5]),
-            ..State::default()
-        };
-        state.set_world_velocities([2.0, -1.0, 0.5], [1.0, 2.0, 3.0]);
-        let tank = Tank {
-            size: [0.4, 1.0, 0.4],
-        };
-        let close = |a: [f64; 3], b: [f64; 3]| (0..3).all(|i| (a[i] - b[i]).abs() < 1e-14);
-        hold(&tank, [0.0; 3], &mut state);
-        assert_eq!(state.position, [0.2, 0.0, 0.0]);
-        assert!(close(state.world_velocity(), [0.0, -1.0, 0.5]));
-        assert!(close(state.world_angular_velocity(), [1.0, 2.0, 3.0]));
-        // On its way back nothing is taken.
-        state.position[0] = 0.3;
-        state.set_world_velocities([-2.0, 0.0, 0.0], [0.0; 3]);
-        hold(&tank, [0.0; 3], &mut state);
-        assert!(close(state.world_velocity(), [-2.0, 0.0, 0.0]));
-    }
 
     #[test]
     fn a_carried_body_moves_on_a_line_until_it_is_let_go() {

@@ -26,7 +26,7 @@ mod tests;
 
 use std::path::PathBuf;
 
-use langevin_rigid::{Fluid, Model, Settings, State, StopAt};
+use langevin_rigid::{Fluid, Model, Settings, State, StopAt, Tank};
 use langevin_rigid_bake::body::BodySpec;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::Sampling;
@@ -85,20 +85,6 @@ pub struct Scatter {
     pub spin: f64,
     /// Each component of the velocity, world frame (m/s).
     pub velocity: f64,
-}
-
-/// A tank whose water surface is at the height of the release point, which is above its middle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tank {
-    /// Width along x, depth of the water, width along z (m).
-    pub size: [f64; 3],
-}
-
-impl Tank {
-    /// Height of the floor for a release at `position` (m).
-    pub fn floor(&self, position: [f64; 3]) -> f64 {
-        position[1] - self.size[1]
-    }
 }
 
 /// Where the body's surface and mass come from.

@@ -98,6 +98,7 @@ mod symmetry;
 mod thin_card;
 pub mod turbulence;
 mod wake;
+mod world;
 
 pub use bake::{Bake, BakeError};
 pub use batch::{Batch, BatchError, Pack, Precision};
@@ -119,6 +120,7 @@ pub use turbulence::{
     kolmogorov_c0,
 };
 pub use wake::{SLIP_QUANTILE, Wake};
+pub use world::Tank;
 
 /// Version of this crate.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

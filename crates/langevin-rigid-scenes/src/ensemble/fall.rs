@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::motion::MotionTracker;
 use super::scatter::scattered_release;
-use crate::advance::{advance, hold, is_carried};
+use crate::advance::{advance, is_carried};
 use crate::prepared::{Prepared, Release};
 use crate::scene::MAX_STEPS;
 
@@ -144,7 +144,7 @@ impl Setup<'_> {
                 ending = Some(FallEnding::Diverged(words));
             } else {
                 if let Some(tank) = &scene.tank {
-                    hold(tank, fall.release.state.position, &mut state);
+                    tank.hold(fall.release.state.position, &mut state);
                     batch.set(place, &state);
                 }
                 self.follow(fall, &before[place], &state);

@@ -1,9 +1,8 @@
 //! What is around the body: fluid and tank.
 
-use langevin_rigid::Fluid;
+use langevin_rigid::{Fluid, Tank};
 use serde_spanned::Spanned;
 
-use super::Tank;
 use super::place::{Document, SceneError};
 use super::quantity::{DENSITY, Kind, SIZE, SPEED, VISCOSITY};
 use super::raw::{Given, RawFluid, RawTank};
