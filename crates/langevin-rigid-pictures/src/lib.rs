@@ -1,12 +1,59 @@
-//! Pictures a person can look at: the body drawn at equal times along its path.
+//! Pictures of Langevin Rigid: a body at equal times along its path, films of it, maps of regimes.
 //!
-//! [`trajectory_picture`] draws on the CPU, without display, graphics card or installed fonts, and
-//! gives the same bytes everywhere. Hidden surfaces go through a depth buffer; the two sides of
-//! the body have their own colours, so that a flip shows; the path darkens with time. A body that
-//! would be too small beside its path is magnified, and the caption says how much. [`Film`] draws
-//! the same as frames, [`regimes`] maps of kinds over two axes.
+//! For whoever wants to see a run without a renderer: in a report, in a test, on a server. It draws on the CPU,
+//! without display, graphics card or installed fonts. It knows no science: it is given poses, triangles, numbers and words.
+//! It is no charting library either.
 //!
-//! It knows no science: it is given poses, triangles, numbers and words.
+//! ```
+//! use langevin_rigid::{Body, Fluid, NoiseStream, Settings, State, Stepper};
+//! use langevin_rigid_pictures::{Film, PictureOptions, Pose, Subject, trajectory_picture};
+//!
+//! let card = Body::plate(0.085, 0.055, 0.3e-3, 900.0)?;
+//! let stepper = Stepper::new(&card, &Fluid::AIR, None, &Settings::default())?;
+//! let noise = NoiseStream { seed: 1, body: 0 };
+//! let mut state = State::default();
+//! let mut poses = Vec::new();
+//! for _ in 0..60 {
+//!     let State { time, position, orientation, .. } = state;
+//!     poses.push(Pose { time, position, orientation });
+//!     stepper.step(&mut state, 1.0 / 60.0, &noise.into())?;
+//! }
+//!
+//! let subject = Subject {
+//!     vertices: &card.surface.vertices,
+//!     triangles: &card.surface.triangles,
+//! };
+//! let options = PictureOptions { title: Some("A business card".into()), ..PictureOptions::default() };
+//! let picture = trajectory_picture(&subject, &poses, &options)?;
+//! let file: Vec<u8> = picture.png()?;
+//! assert!(file.starts_with(b"\x89PNG"));
+//!
+//! let film = Film::new(&subject, &poses, &options, 30.0)?;
+//! assert_eq!(film.frames(), 30);
+//! assert_eq!(film.frame(0)?.width(), picture.width());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # What it draws
+//!
+//! - [`trajectory_picture`]: the body at equal times, the path between, ground and scale. The time between two
+//!   bodies is the shortest round one at which they stay apart. The two sides of the body have their own
+//!   colours, so that a flip shows; the path darkens with time. A body that would be too small beside its path is
+//!   magnified, and the caption says how much.
+//! - [`Film`]: the same as frames, one body each, from a camera at rest.
+//! - [`regimes`]: marks of kinds over coloured regions, on two logarithmic axes.
+//!
+//! [`Subject`] is the body, [`Pose`] where it is, [`PictureOptions`] and [`View`] how it is seen, [`Picture`] what comes out.
+//!
+//! # Conventions
+//!
+//! - Metres, seconds, quaternions x, y, z, w; the world is right-handed with +Y up. Vertices are in the body frame.
+//! - All views are orthographic, at one scale in all panels of a picture.
+//! - Pixels are sRGB, opaque, row by row from the top.
+//! - The same input gives the same bytes on every machine.
+//! - What cannot be drawn is a [`PictureError`] that names the first pose, vertex or triangle at fault.
+//!
+//! There are no features to choose. The font is Inter, which is part of the crate under the SIL Open Font License.
 
 mod axes;
 mod camera;

@@ -1,10 +1,32 @@
-//! The results of the paper, computed again: one page with pictures, curves and tables beside what
-//! the paper states, and the raw data next to it.
+//! Report of Langevin Rigid: the results of the paper, computed again, as one page.
 //!
-//! [`reproduce`] computes the parts in turn and writes each as soon as it is finished, so that an
-//! interruption costs the part under way and no more. Every number is a result of the runs; what
-//! the paper and other sources state is in one place, `paper.rs`. Verdicts follow from the numbers
-//! by the rule that the page states. Numbers depend on the options alone, but for wall-clock times.
+//! The paper is H. Xie and K. Miyata, "Langevin Rigid: Animating Immersed Rigid Bodies in Real-time" (2014). The page has
+//! pictures, curves and tables beside what the paper states, and the raw data next to it. It is for those who want to
+//! know what of the paper can be had again; the command `langevin-rigid reproduce` is its usual user.
+//!
+//! ```
+//! use langevin_rigid_report::{Options, Part, reproduce};
+//!
+//! let options = Options {
+//!     parts: Part::named("fig2").into_iter().collect(),
+//!     seeds: 1,
+//!     first_seed: 1,
+//!     cache: None,
+//! };
+//! let folder = tempfile::tempdir()?;
+//! let report = reproduce(&options, folder.path(), &())?;
+//! assert!(report.complete && report.page.is_file());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`reproduce`] computes the [`PARTS`] that it is asked for in turn and writes each as soon as it is finished, so that an
+//! interruption costs the part under way and no more. A finished part is a [`Section`]: words, [`Numbers`], files, and a
+//! verdict on each [`Claim`] of the paper.
+//!
+//! - Every number is a result of the runs; what the paper and other sources state is in one place, `paper.rs`.
+//! - Verdicts follow from the numbers by the rule that the page states.
+//! - Numbers depend on the options alone, but for wall-clock times. Units are SI in the data, and stated in the page.
+//! - What cannot be computed or written is a [`ReportError`].
 
 mod chart;
 mod coin;
