@@ -175,6 +175,45 @@ fn a_spike_of_few_triangles_stays_small() {
 }
 
 #[test]
+fn a_long_spike_takes_few_iterations() {
+    // A box of twelve triangles, one corner of which is drawn out.
+    let spike = |length: f64| {
+        let vertices = vec![
+            [0.0, -0.5, -0.5],
+            [-0.5, 0.5, -0.5],
+            [-0.5, 0.5, 0.5],
+            [-0.5, -0.5, length],
+            [0.5, -0.5, -0.5],
+            [0.5, 0.5, -0.5],
+            [0.5, 0.5, 0.5],
+            [0.5, -0.5, 0.5],
+        ];
+        let mut triangles = vec![
+            [0, 2, 1],
+            [0, 3, 2],
+            [4, 5, 6],
+            [4, 6, 7],
+            [0, 7, 3],
+            [0, 4, 7],
+        ];
+        triangles.extend([
+            [1, 2, 6],
+            [1, 6, 5],
+            [0, 5, 4],
+            [0, 1, 5],
+            [3, 7, 6],
+            [3, 6, 2],
+        ]);
+        TriMesh::new(vertices, triangles).expect("a spike")
+    };
+    for length in [1e3, 5e4, 1e6] {
+        let quality = solve(&spike(length)).quality;
+        assert!(quality.residual <= 1e-6, "{length}: {quality:?}");
+        assert!(quality.iterations < 60, "{length}: {quality:?}");
+    }
+}
+
+#[test]
 fn random_fans_stars_and_needles_give_tensors() {
     let fans = (
         3usize..150,

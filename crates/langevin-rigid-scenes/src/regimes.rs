@@ -4,14 +4,14 @@
 //! several tilts; each fall is classified by itself, and each point of the grid compared with the
 //! published map.
 
+mod fall;
 mod map;
 mod plates;
 mod published;
 mod survey;
 
+pub use fall::{Case, Run, run};
 pub use map::regime_map;
-pub use plates::{Plate, terminal_speed};
+pub use plates::{Plate, stepper, terminal_speed};
 pub use published::{Boundary, Measured, Published, UNCERTAINTY};
-pub use survey::{
-    Agreement, Case, Point, REYNOLDS, Run, TILTS, cases, csv, inertia_ratios, points, run,
-};
+pub use survey::{Agreement, Point, REYNOLDS, TILTS, cases, csv, inertia_ratios, points};

@@ -7,8 +7,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid::linalg::quat_from_rotation_vector;
-use langevin_rigid::{Body, Fluid, Input, Model, SeparatedFlow, Settings, State, Stepper};
-use langevin_rigid_scenes::regimes::{Plate, terminal_speed};
+use langevin_rigid::{Body, Input, State};
+use langevin_rigid_scenes::regimes::{Plate, stepper, terminal_speed};
 
 /// One fall: the thin axis' turn about z from level, unwrapped, and the velocity, sampled.
 struct Fall {
@@ -18,20 +18,7 @@ struct Fall {
 }
 
 fn fall(body: &Body, viscosity: f64, tilt: f64) -> Fall {
-    let fluid = Fluid {
-        density: 1.0,
-        viscosity,
-        velocity: [0.0; 3],
-    };
-    let settings = Settings {
-        model: Model::Separated,
-        separated: SeparatedFlow {
-            turbulence_intensity: 0.0,
-            ..SeparatedFlow::default()
-        },
-        ..Settings::default()
-    };
-    let stepper = Stepper::new(body, &fluid, None, &settings).unwrap();
+    let stepper = stepper(body, viscosity).unwrap();
     let dt = 0.02 / terminal_speed(body);
     let mut state = State {
         orientation: quat_from_rotation_vector([0.0, 0.0, tilt.to_radians()]),

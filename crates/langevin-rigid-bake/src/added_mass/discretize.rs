@@ -12,7 +12,7 @@ use super::refine::bisect;
 use super::report::Cancel;
 use super::{AddedMassError, Options};
 use crate::mesh::TriMesh;
-use crate::mesh::vector::{dot, sub};
+use crate::mesh::vector::{bounding_box, dot, norm, sub};
 use crate::progress::Progress;
 
 /// Longest edge wanted, in lengths sqrt(area / target triangles).
@@ -154,6 +154,12 @@ impl Discretized {
                 fold.length * 0.5 * (longest2(s) + longest2(t)) * (kink * kink)
             })
             .sum()
+    }
+
+    /// Whether triangles are longer than the body is around: its area over its length.
+    pub(super) fn is_needle(&self) -> bool {
+        let [low, high] = bounding_box(&self.vertices);
+        self.longest() * norm(sub(high, low)) > self.frame.area
     }
 
     /// Longest edge (in units).

@@ -50,6 +50,7 @@ impl Flow {
         let loads = load::loads(&panels, &sums, w.operator());
         let single_layer = single_layer_energy(&panels.panels, &sums);
         let components = panels.components();
+        let needle = body.is_needle().then(|| nested_members(body, &panels));
         let zero = vec![[0.0; 6]; loads.len()];
         let system = System {
             w: w.operator(),
@@ -57,6 +58,7 @@ impl Flow {
             vertices: &panels.vertices,
             components: &components,
             thickness,
+            needle: needle.as_deref(),
         };
         let solution = system.solve(zero, &Cancel::new(progress, "potentials", 1))?;
         let layered = plus(&single_layer, &solution.energy(&loads));
@@ -138,6 +140,8 @@ struct System<'a> {
     /// The component of each.
     components: &'a [u32],
     thickness: Thickness,
+    /// Of a needle the functions without the edge layer.
+    needle: Option<&'a [SparseRow]>,
 }
 
 impl System<'_> {
@@ -147,6 +151,7 @@ impl System<'_> {
             self.vertices,
             self.components,
             self.thickness.sheet,
+            self.needle,
             cancel,
         )?;
         solve(self.w, self.loads, start, &preconditioner, cancel)
@@ -173,6 +178,7 @@ fn nested_energy(
         loads: &loads,
         vertices: &vertices,
         components: &components,
+        needle: None,
         ..*layered
     };
     let solution = system.solve(kept.iter().map(|&v| x[v]).collect(), cancel)?;

@@ -3,6 +3,11 @@
 //! On a thin body the modes that are equal on both faces have energies of the order of the
 //! thickness; the diagonal does not see them. A factorized sparse approximate inverse (L. Kolotilina
 //! and A. Yeremin, 1993) over the neighbours in space, which include the opposite face, does.
+//!
+//! On a needle, whose triangles are longer than it is around, the softest modes are equal all around and vary
+//! along it alone. The coarse space has them if each station along the needle has a function of its own, and what the
+//! edge layer put between stations is linear there: a function made of distances is not, and its defect costs
+//! (length of a triangle / width of the needle)^2 times the energy of the mode, as many iterations as their ratio.
 
 use rayon::prelude::*;
 
@@ -19,6 +24,8 @@ const NEIGHBOURS: usize = 24;
 const LARGE: usize = 3000;
 /// Vertices per coarse function.
 const COARSENING: usize = 16;
+/// So many times as many of them on a needle.
+const FINER: usize = 2;
 /// Vertices that a search for neighbours passes over together.
 const GROUP: usize = 32;
 /// What W is where it has no such inverse.
@@ -41,12 +48,14 @@ pub(super) enum Preconditioner {
 impl Preconditioner {
     /// The one for a body with these vertices.
     ///
-    /// A constant on one component of the surface has no energy; `components` tells them apart.
+    /// A constant on one component of the surface has no energy; `components` tells them apart. A body whose triangles
+    /// are longer than it is around is a `needle`, given by its functions without the edge layer.
     pub(super) fn new(
         w: &dyn Operator,
         vertices: &[Vec3],
         components: &[u32],
         sheet: bool,
+        needle: Option<&[SparseRow]>,
         cancel: &Cancel,
     ) -> Result<Preconditioner, AddedMassError> {
         let diagonal = w.diagonal();
@@ -61,7 +70,7 @@ impl Preconditioner {
         }
         Ok(Preconditioner::TwoLevel {
             factor: SparseFactor::new(w, vertices, components, cancel)?,
-            coarse: Coarse::new(w, vertices, components, cancel)?,
+            coarse: Coarse::new(w, vertices, components, needle, cancel)?,
         })
     }
 
@@ -245,17 +254,18 @@ impl Coarse {
         w: &dyn Operator,
         vertices: &[Vec3],
         components: &[u32],
+        needle: Option<&[SparseRow]>,
         cancel: &Cancel,
     ) -> Result<Coarse, AddedMassError> {
-        let most = w.most_coarse();
-        let seeds = spread_out(vertices, (vertices.len() / COARSENING).min(most));
-        let interpolation: Vec<SparseRow> = vertices
-            .par_iter()
-            .with_min_len(64)
-            .map(|&v| inverse_distance(v, vertices, &seeds))
-            .collect();
-        let members = transposed(&interpolation, seeds.len());
-        let m = seeds.len();
+        let m = (vertices.len() / COARSENING).min(w.most_coarse());
+        let (m, interpolation) = match needle {
+            None => (m, by_distance(vertices, m)),
+            Some(nested) => {
+                let m = (FINER * m).min(nested.len() / 2);
+                (m, through(nested, vertices, m))
+            }
+        };
+        let members = transposed(&interpolation, m);
         cancel.check()?;
         let small = w.galerkin(&members);
         cancel.check()?;
@@ -330,6 +340,30 @@ fn spread_out(vertices: &[Vec3], count: usize) -> Vec<usize> {
         seeds.push(farthest);
     }
     seeds
+}
+
+/// Interpolation at each vertex from `count` of them.
+fn by_distance(vertices: &[Vec3], count: usize) -> Vec<SparseRow> {
+    let seeds = spread_out(vertices, count);
+    let row = |&v: &Vec3| inverse_distance(v, vertices, &seeds);
+    vertices.par_iter().with_min_len(64).map(row).collect()
+}
+
+/// The same from `count` of the vertices that `nested` functions start with, through these functions.
+fn through(nested: &[SparseRow], vertices: &[Vec3], count: usize) -> Vec<SparseRow> {
+    let kept: Vec<Vec3> = nested.iter().map(|f| vertices[f[0].0 as usize]).collect();
+    let coarse = by_distance(&kept, count);
+    let row = |functions: &SparseRow| -> SparseRow {
+        let mut row: SparseRow = functions
+            .iter()
+            .flat_map(|&(f, s)| coarse[f as usize].iter().map(move |&(c, t)| (c, s * t)))
+            .collect();
+        row.sort_by_key(|&(c, _)| c);
+        row.chunk_by(|a, b| a.0 == b.0)
+            .map(|run| (run[0].0, run.iter().map(|&(_, w)| w).sum()))
+            .collect()
+    };
+    transposed(nested, vertices.len()).iter().map(row).collect()
 }
 
 /// Weights of the four nearest seeds, by the inverse square of the distance.

@@ -6,8 +6,10 @@
 use std::f64::consts::PI;
 
 use langevin_rigid::linalg::{Mat3, Mat6};
-use langevin_rigid::{Body, GRAVITY, Separation, Surface};
-use serde::Serialize;
+use langevin_rigid::{
+    Body, Fluid, GRAVITY, Model, SeparatedFlow, Separation, Settings, SetupError, Stepper, Surface,
+};
+use serde::{Deserialize, Serialize};
 
 /// Euler's constant.
 const EULER: f64 = 0.577_215_664_901_532_9;
@@ -19,7 +21,7 @@ const SIDES: u32 = 64;
 const DRAWN_SPAN: f64 = 1.5;
 
 /// The flat bodies whose regimes have been measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Plate {
     /// A circular disc. I* = I / (rho d^5), with I about a diameter d.
@@ -64,6 +66,28 @@ impl Plate {
 pub fn terminal_speed(body: &Body) -> f64 {
     let weight = (body.mass - body.volume) * -GRAVITY[1];
     (2.0 * weight / body.separation.drag_area[1][1]).sqrt()
+}
+
+/// A stepper for a plate of [`Plate::body`] in fluid at rest of this kinematic viscosity, on the plate's scale: the model
+/// `separated` without turbulence.
+///
+/// # Errors
+/// [`SetupError`] for a plate that cannot fall.
+pub fn stepper(body: &Body, viscosity: f64) -> Result<Stepper, SetupError> {
+    let fluid = Fluid {
+        density: 1.0,
+        viscosity,
+        velocity: [0.0; 3],
+    };
+    let settings = Settings {
+        model: Model::Separated,
+        separated: SeparatedFlow {
+            turbulence_intensity: 0.0,
+            ..SeparatedFlow::default()
+        },
+        ..Settings::default()
+    };
+    Stepper::new(body, &fluid, None, &settings)
 }
 
 /// Added mass of the thin disc (Lamb 1932, articles 102 and 108), and of its rim edgewise as half a

@@ -1,17 +1,11 @@
-//! The falls of a grid of plates.
+//! The grid of plates, and what the falls at each of its points have in common.
 
 use std::fmt::Write;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-use langevin_rigid::linalg::quat_from_rotation_vector;
-use langevin_rigid::{
-    Body, Fluid, Input, Model, SeparatedFlow, Settings, SetupError, State, StepError, Stepper,
-};
-use langevin_rigid_bake::progress::Progress;
-use rayon::prelude::*;
 use serde::Serialize;
 
-use super::plates::{Plate, terminal_speed};
+use super::fall::{Case, Run};
+use super::plates::Plate;
 use super::published::Published;
 use crate::ensemble::{Motion, MotionTracker};
 
@@ -20,132 +14,11 @@ pub const TILTS: [f64; 3] = [5.0, 15.0, 40.0];
 /// Range of Re.
 pub const REYNOLDS: [f64; 2] = [30.0, 30_000.0];
 
-/// Steps in the time d/U.
-const STEPS: f64 = 40.0;
-/// A fall lasts so many times d/U, and the same again in units of the distance m / (rho P_yy) over
-/// which a plate takes up speed: heavy ones are slow to settle.
-const FALL: [f64; 2] = [400.0, 40.0];
-/// Steps between two looks at whether to go on.
-const PATIENCE: u64 = 4096;
-
 /// Range of I* in the map: from little heavier than water to well into tumbling.
 pub fn inertia_ratios(plate: Plate) -> [f64; 2] {
     match plate {
         Plate::Disc => [0.002, 1.0],
         Plate::Strip => [0.05, 20.0],
-    }
-}
-
-/// One release.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Case {
-    /// What falls.
-    pub plate: Plate,
-    /// Reynolds number on diameter or chord and [`terminal_speed`].
-    pub reynolds: f64,
-    /// I*.
-    pub inertia_ratio: f64,
-    /// Tilt of the release from level, about the z axis, degrees.
-    pub tilt: f64,
-}
-
-/// What became of a release.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Run {
-    /// The release.
-    pub case: Case,
-    /// How it fell over the second half of its time; none if a step failed.
-    pub motion: Result<MotionTracker, StepError>,
-}
-
-impl Case {
-    /// A stepper for it, without turbulence, and its time step (s).
-    ///
-    /// # Errors
-    /// [`SetupError`] for a plate lighter than the fluid, or none.
-    fn stepper(&self, body: &Body) -> Result<(Stepper, f64), SetupError> {
-        let speed = terminal_speed(body);
-        let fluid = Fluid {
-            density: 1.0,
-            viscosity: speed / self.reynolds,
-            velocity: [0.0; 3],
-        };
-        let settings = Settings {
-            model: Model::Separated,
-            separated: SeparatedFlow {
-                turbulence_intensity: 0.0,
-                ..SeparatedFlow::default()
-            },
-            ..Settings::default()
-        };
-        let stepper = Stepper::new(body, &fluid, None, &settings)?;
-        Ok((stepper, 1.0 / (STEPS * speed)))
-    }
-
-    /// The body that falls.
-    pub fn body(&self) -> Body {
-        self.plate.body(self.inertia_ratio, self.plate.thickness())
-    }
-
-    /// The fall; `follow` gets every state of its second half. None if cancelled.
-    fn fall(
-        &self,
-        mut follow: impl FnMut(&State),
-        cancelled: &dyn Fn() -> bool,
-    ) -> Result<Option<Result<(), StepError>>, SetupError> {
-        let body = self.body();
-        let (stepper, time_step) = self.stepper(&body)?;
-        let starting = body.mass / body.separation.drag_area[1][1];
-        let half = (0.5 * STEPS * (FALL[0] + FALL[1] * starting)) as u64;
-        let mut state = State {
-            orientation: quat_from_rotation_vector([0.0, 0.0, self.tilt.to_radians()]),
-            ..State::default()
-        };
-        for step in 0..2 * half {
-            if step % PATIENCE == 0 && cancelled() {
-                return Ok(None);
-            }
-            if let Err(error) = stepper.step(&mut state, time_step, &Input::default()) {
-                return Ok(Some(Err(error)));
-            }
-            if step >= half {
-                follow(&state);
-            }
-        }
-        Ok(Some(Ok(())))
-    }
-
-    fn run(&self, cancelled: &dyn Fn() -> bool) -> Result<Option<Run>, SetupError> {
-        let mut tracker: Option<MotionTracker> = None;
-        let follow = |state: &State| match &mut tracker {
-            Some(tracker) => tracker.follow(state),
-            None => tracker = Some(MotionTracker::new([0.0, 1.0, 0.0], state)),
-        };
-        let ended = self.fall(follow, cancelled)?;
-        Ok(ended.zip(tracker).map(|(ended, tracker)| Run {
-            case: *self,
-            motion: ended.map(|()| tracker),
-        }))
-    }
-
-    /// The states of the second half of the fall, up to `lengths` diameters of path from the middle.
-    ///
-    /// # Errors
-    /// [`SetupError`] for a plate that cannot fall.
-    pub fn path(&self, lengths: f64) -> Result<Vec<State>, SetupError> {
-        let mut states: Vec<State> = Vec::new();
-        let mut travelled = 0.0;
-        let follow = |state: &State| {
-            if let Some(last) = states.last() {
-                let step = |i: usize| (state.position[i] - last.position[i]).powi(2);
-                travelled += (step(0) + step(1) + step(2)).sqrt();
-            }
-            if travelled <= lengths {
-                states.push(*state);
-            }
-        };
-        self.fall(follow, &|| false)?;
-        Ok(states)
     }
 }
 
@@ -171,28 +44,6 @@ pub fn cases(inertia_ratio_count: u32, reynolds_count: u32) -> Vec<Case> {
         }
     }
     cases
-}
-
-/// Runs every case, on all cores, with the model `separated` and no turbulence.
-///
-/// The runs come in the order of the cases, with the same bits on any number of threads. Of work that
-/// `progress` cancels, the runs that are complete are given.
-///
-/// # Errors
-/// [`SetupError`] of the first plate that cannot fall.
-pub fn run(cases: &[Case], progress: &dyn Progress) -> Result<Vec<Run>, SetupError> {
-    let done = AtomicUsize::new(0);
-    let runs: Vec<Option<Run>> = cases
-        .par_iter()
-        .with_max_len(1)
-        .map(|case| {
-            let run = case.run(&|| progress.cancelled());
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress.report("dropping", done as f64 / cases.len() as f64);
-            run
-        })
-        .collect::<Result<_, _>>()?;
-    Ok(runs.into_iter().flatten().collect())
 }
 
 /// The runs as a table, a row a run.
@@ -268,10 +119,6 @@ fn majority(motions: &[Motion]) -> Motion {
 
 /// The points of the grid all of whose releases came to an end.
 pub fn points(runs: &[Run]) -> Vec<Point> {
-    let same = |a: &Run, b: &Run| {
-        let (a, b) = (&a.case, &b.case);
-        (a.plate, a.reynolds, a.inertia_ratio) == (b.plate, b.reynolds, b.inertia_ratio)
-    };
     let point = |runs: &[Run]| {
         let motions: Vec<Motion> = runs
             .iter()
@@ -280,7 +127,9 @@ pub fn points(runs: &[Run]) -> Vec<Point> {
         let motions = <[Motion; TILTS.len()]>::try_from(motions).ok()?;
         Some(Point::new(&runs[0].case, motions))
     };
-    runs.chunk_by(same).filter_map(point).collect()
+    runs.chunk_by(|a, b| a.case.is_of_one_point(&b.case))
+        .filter_map(point)
+        .collect()
 }
 
 /// How many of the compared points have the published regime.
@@ -312,6 +161,8 @@ impl Agreement {
 
 #[cfg(test)]
 mod tests {
+    use langevin_rigid::State;
+
     use super::*;
 
     #[test]
