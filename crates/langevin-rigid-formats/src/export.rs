@@ -27,7 +27,7 @@ pub use format::{Format, UnknownFormat};
 pub use up::{UnknownUp, Up};
 
 use crate::files::{self, WriteError};
-use crate::motion::MotionError;
+use crate::track::TrackError;
 use crate::trajectory::{Trajectory, write_csv};
 
 /// How a run was made, which animations say beside what they show.
@@ -94,11 +94,11 @@ pub enum ExportError {
     Write(#[from] WriteError),
     /// A trajectory cannot be shown.
     #[error("body {body}: {error}")]
-    Motion {
+    Track {
         /// Number of the body.
         body: u32,
         /// What is wrong with its trajectory.
-        error: MotionError,
+        error: TrackError,
     },
     /// There is no body.
     #[error("there is no trajectory to export: run the scene again")]

@@ -3,7 +3,7 @@
 use langevin_rigid::linalg::rotation_matrix;
 
 use crate::vector::{Mat3, Vec3, add, mul_vec};
-use langevin_rigid_formats::motion::Pose;
+use langevin_rigid_formats::track::Pose;
 
 /// Where the body is at one time: `world = position + rotation * body`.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
-use crate::motion::Pose;
+use crate::track::Pose;
 use crate::trajectory::Trajectory;
 
 /// Which axis of the world points up.
