@@ -15,17 +15,12 @@ mod seed;
 mod separated;
 mod shape;
 mod surroundings;
-fn relative_speed(release: &State, fluid: &Fluid) -> f64 {
-    let released = release.world_velocity();
-    let relative: [f64; 3] = std::array::from_fn(|i| released[i] - fluid.velocity[i]);
-    relative.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 #[cfg(test)]
 mod tests;
 
 use std::path::PathBuf;
 
+use langevin_rigid::linalg::vector::{norm, sub};
 use langevin_rigid::{Fluid, Model, Settings, State, StopAt, Tank};
 use langevin_rigid_bake::body::BodySpec;
 use langevin_rigid_bake::shapes::Shape;
@@ -274,4 +269,9 @@ impl Scene {
             }),
         })
     }
+}
+
+/// Of the body and the fluid at the release (m/s).
+fn relative_speed(release: &State, fluid: &Fluid) -> f64 {
+    norm(sub(release.world_velocity(), fluid.velocity))
 }

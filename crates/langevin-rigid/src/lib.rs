@@ -46,7 +46,7 @@
 //!
 //! # Modules
 //!
-//! Everything is at the root but two modules: [`linalg`], the rotations and small matrices that the types are
+//! Everything is at the root but two modules: [`linalg`], the vectors, rotations and small matrices that the types are
 //! written in, and [`turbulence`], the precomputed history and the coefficients of the Langevin equation.
 //! [`Wake`], [`stokes_translation`] and [`shift_added_mass`] are what the precomputation shares with the run time.
 //!

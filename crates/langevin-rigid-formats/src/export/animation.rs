@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use langevin_rigid::linalg::vector::{norm, sub};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -180,17 +181,12 @@ impl Keyframes {
             }
             let (position, orientation) = self.shown(passed, pose.time);
             worst = worst.worse(Deviation {
-                position: distance(position, pose.position),
+                position: norm(sub(position, pose.position)),
                 rotation: angle(orientation, pose.orientation),
             });
         }
         worst
     }
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let squares: f64 = a.iter().zip(&b).map(|(x, y)| (x - y) * (x - y)).sum();
-    squares.sqrt()
 }
 
 /// Angle of the turn from one orientation to another, the first of unit length (rad).

@@ -1,5 +1,6 @@
 //! What kind of motion a fall is.
 
+use langevin_rigid::linalg::vector::cross;
 use langevin_rigid::linalg::{Vec3, eigen_symmetric, rotate};
 use langevin_rigid::{Body, State};
 use serde::{Deserialize, Serialize};
@@ -171,14 +172,6 @@ impl MotionTracker {
             _ => MotionClass::Chaotic,
         }
     }
-}
-
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 /// Whether two directions are more than a quarter turn apart.

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use langevin_rigid::linalg::quat_from_rotation_vector;
+use langevin_rigid::linalg::vector::{norm, sub};
 use langevin_rigid::{
     Body, Fluid, Input, Model, SeparatedFlow, Settings, SetupError, State, StepError, Stepper,
 };
@@ -137,8 +138,7 @@ impl Case {
         let mut travelled = 0.0;
         let follow = |state: &State| {
             if let Some(last) = states.last() {
-                let step = |i: usize| (state.position[i] - last.position[i]).powi(2);
-                travelled += (step(0) + step(1) + step(2)).sqrt();
+                travelled += norm(sub(state.position, last.position));
             }
             if travelled <= lengths {
                 states.push(*state);
