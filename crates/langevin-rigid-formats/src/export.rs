@@ -23,8 +23,8 @@ use std::path::Path;
 use langevin_rigid::{Bake, Fluid, Settings};
 
 pub use animation::Deviation;
-pub use format::{Format, UnknownFormat};
-pub use up::{UnknownUp, Up};
+pub use format::Format;
+pub use up::Up;
 
 use crate::files::{self, WriteError};
 use crate::track::TrackError;
