@@ -4,6 +4,7 @@
 //! [`Scene::to_toml`] writes the resolved scene, which reads back as the same scene.
 //! [`find`] opens a built-in scene by name or a file by path; [`BUILT_IN`] is their one registry.
 
+mod body;
 mod grid;
 mod place;
 mod quantity;
@@ -185,7 +186,7 @@ impl Scene {
             scatter: release::scatter(&doc, &raw.scatter)?,
             carried: release::carried(&doc, &raw.release)?,
             // Last: it makes a mesh.
-            body: shape::resolve(&doc, &raw.body)?,
+            body: body::resolve(&doc, &raw.body)?,
             fluid,
             release,
             stop,
@@ -239,7 +240,7 @@ impl Scene {
                     velocity: given(self.fluid.velocity.to_vec()),
                 },
             ),
-            body: Spanned::new(0..0, shape::write(&self.body)?),
+            body: Spanned::new(0..0, body::write(&self.body)?),
             release: release::write(&self.release, self.carried),
             run: Spanned::new(
                 0..0,

@@ -47,6 +47,14 @@ impl Format {
         }
     }
 
+    /// Whether it has frames in place of every step.
+    pub fn is_animation(self) -> bool {
+        match self {
+            Self::Glb | Self::Usd => true,
+            Self::Csv | Self::Npz | Self::Parquet => false,
+        }
+    }
+
     /// Whether this build can write it.
     pub fn built(self) -> bool {
         self != Self::Parquet || cfg!(feature = "parquet")
