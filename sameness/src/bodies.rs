@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use langevin_rigid::{Body, Part};
+use langevin_rigid::{Body, Slice};
 
 use crate::common::{chiral, ellipsoid};
 
@@ -51,9 +51,9 @@ fn bent_rod() -> Body {
     body.slices = (0..SLICES)
         .map(|slice| {
             let place = 2.0 * (slice as f64 + 0.5) * share - 1.0;
-            let mut part = Part {
+            let mut part = Slice {
                 centre: [0.5 * radius * (place * place - 0.32), length * place, 0.0],
-                ..Part::default()
+                ..Slice::default()
             };
             let across = [radius, length * share, radius];
             for i in 0..3 {

@@ -44,14 +44,14 @@ mod precondition;
 mod quadric;
 mod refine;
 mod report;
-mod shape;
+mod shape_error;
 mod solver;
 mod sums;
 
 pub use expect::{Expected, Thinnest, expected};
 pub use outcome::SMALL_THICKNESS;
 pub use report::{AddedMassError, MeshQuality, Warning};
-pub use shape::ShapeError;
+pub use shape_error::ShapeError;
 
 use crate::mesh::TriMesh;
 use crate::progress::Progress;

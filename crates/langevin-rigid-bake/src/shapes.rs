@@ -248,6 +248,24 @@ impl Shape {
             } => lofted::samara([length, width, thickness], triangles),
         }
     }
+
+    /// The full thickness b of Eq. (1) (m): that of a sheet, the least dimension of any other body.
+    pub fn thickness(&self) -> f64 {
+        let least = |sizes: &[f64]| sizes.iter().copied().fold(f64::INFINITY, f64::min);
+        match *self {
+            Shape::Ellipsoid { semi_axes } => 2.0 * least(&semi_axes),
+            Shape::Box { size } => least(&size),
+            Shape::Cylinder { radius, height } => least(&[2.0 * radius, height]),
+            Shape::EllipticalPlate { thickness, .. }
+            | Shape::Disc { thickness, .. }
+            | Shape::Coin { thickness, .. }
+            | Shape::Washer { thickness, .. }
+            | Shape::PaperAirplane { thickness, .. }
+            | Shape::Leaf { thickness, .. }
+            | Shape::Feather { thickness, .. }
+            | Shape::Samara { thickness, .. } => thickness,
+        }
+    }
 }
 
 /// A prism after checking its lengths.

@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use langevin_rigid::{Model, TurbulenceSource};
 use langevin_rigid_formats::export::{Format as TrajectoryFormat, Up};
 use langevin_rigid_formats::mesh::LengthUnit;
-use langevin_rigid_report::{PARTS, Part};
+use langevin_rigid_report::Part;
 
 use crate::size::{Size, size};
 
@@ -432,7 +432,7 @@ pub(crate) struct Reproduce {
     #[arg(long, value_name = "DIR", default_value = "out/reproduce")]
     pub(crate) out: PathBuf,
     /// Parts to compute, with commas between them [default: all].
-    #[arg(long, value_name = "PART", value_delimiter = ',', value_parser = part)]
+    #[arg(long, value_name = "PART", value_delimiter = ',', value_parser = Part::named)]
     pub(crate) only: Vec<Part>,
     /// Seeds of each ensemble.
     #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u32).range(1..))]
@@ -440,13 +440,6 @@ pub(crate) struct Reproduce {
     /// The first seed.
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) seed: u64,
-}
-
-fn part(name: &str) -> Result<Part, String> {
-    Part::named(name).ok_or_else(|| {
-        let known: Vec<&str> = PARTS.iter().map(|p| p.name).collect();
-        format!("the parts are {}", known.join(", "))
-    })
 }
 
 pub(crate) fn positive(text: &str) -> Result<f64, String> {

@@ -4,7 +4,7 @@ use anyhow::Result;
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::{Body, State};
 use langevin_rigid_formats::budget::{self, Need};
-use langevin_rigid_formats::motion::Pose;
+use langevin_rigid_formats::track::Pose;
 use langevin_rigid_scenes::baking::characteristic_speed;
 use langevin_rigid_scenes::scene::Scene;
 

@@ -7,7 +7,7 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 use langevin_rigid_formats::files::{self, Claim};
 use langevin_rigid_pictures::{PictureOptions, Pose, Subject, View, trajectory_picture};
-use langevin_rigid_scenes::ensemble::Motion;
+use langevin_rigid_scenes::ensemble::MotionClass;
 use langevin_rigid_scenes::regimes::{
     self, Agreement, Case, Plate, Point, Published, Run, TILTS, UNCERTAINTY,
 };
@@ -137,7 +137,7 @@ fn write_all(
     let map = regimes::regime_map(points, &caption(report))?;
     files::write(&folder.join("regimes.png"), &map.png()?)?;
     let mut pictures = vec!["regimes.png".to_owned()];
-    for motion in Motion::ALL {
+    for motion in MotionClass::ALL {
         if let Some(case) = typical(motion, runs, points) {
             let name = format!("strobe-{}.png", motion.name());
             strobe(&folder.join(&name), motion, case)?;
@@ -160,7 +160,7 @@ fn caption(report: &Report) -> String {
 
 /// A run of this motion: of a point in the middle of those whose releases are of one mind and agree
 /// with experiments, or at least are of one mind; discs before strips.
-fn typical<'a>(motion: Motion, runs: &'a [Run], points: &[Point]) -> Option<&'a Case> {
+fn typical<'a>(motion: MotionClass, runs: &'a [Run], points: &[Point]) -> Option<&'a Case> {
     let middle = |plate: Plate, confirmed: bool| {
         let fits = |p: &&Point| {
             p.plate == plate
@@ -178,7 +178,7 @@ fn typical<'a>(motion: Motion, runs: &'a [Run], points: &[Point]) -> Option<&'a 
     })
 }
 
-fn strobe(path: &Path, motion: Motion, case: &Case) -> Result<()> {
+fn strobe(path: &Path, motion: MotionClass, case: &Case) -> Result<()> {
     let states = case.path(STROBE)?;
     let start = states.first().map_or(0.0, |s| s.time);
     let origin = states.first().map_or([0.0; 3], |s| s.position);

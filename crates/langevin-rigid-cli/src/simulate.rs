@@ -111,8 +111,8 @@ fn forecast(options: &Simulate, scene: &Scene, baked: &Baked) -> Result<()> {
             Film::MOST_FRAMES
         );
     }
-    let animated = |f: &Format| matches!(f, Format::Glb | Format::Usd);
-    let fps = options.format.iter().any(animated).then_some(options.fps);
+    let animated = options.format.iter().any(|format| format.is_animation());
+    let fps = animated.then_some(options.fps);
     let need = forecast::kept(options.bodies, seconds, scene.time_step, fps);
     let what = format!(
         "`--bodies {} --fps {:?}` for {seconds:.3} s in steps of {:?} s (`--duration`, `--dt`)",

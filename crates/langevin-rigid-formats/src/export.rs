@@ -23,11 +23,11 @@ use std::path::Path;
 use langevin_rigid::{Bake, Fluid, Settings};
 
 pub use animation::Deviation;
-pub use format::{Format, UnknownFormat};
-pub use up::{UnknownUp, Up};
+pub use format::Format;
+pub use up::Up;
 
 use crate::files::{self, WriteError};
-use crate::motion::MotionError;
+use crate::track::TrackError;
 use crate::trajectory::{Trajectory, write_csv};
 
 /// How a run was made, which animations say beside what they show.
@@ -94,11 +94,11 @@ pub enum ExportError {
     Write(#[from] WriteError),
     /// A trajectory cannot be shown.
     #[error("body {body}: {error}")]
-    Motion {
+    Track {
         /// Number of the body.
         body: u32,
         /// What is wrong with its trajectory.
-        error: MotionError,
+        error: TrackError,
     },
     /// There is no body.
     #[error("there is no trajectory to export: run the scene again")]

@@ -39,7 +39,7 @@
 //!
 //! - [`mesh`]: OBJ, STL, PLY, glTF and Collada, read from files or bytes; OBJ and STL, written.
 //! - [`trajectory`]: where a body went, and the table of it as CSV, written and read.
-//! - [`motion`]: where a body is between its poses.
+//! - [`track`]: where a body is between its poses.
 //! - [`export`]: runs as CSV, NumPy, Parquet, glTF or USD.
 //! - [`added_mass`]: the tensor for Gazebo, UUV Simulator, MuJoCo and Capytaine, as JSON, CSV or a table for people.
 //! - [`files`]: writing whole or not at all, and claiming a place before the work begins.
@@ -68,5 +68,5 @@ pub mod budget;
 pub mod export;
 pub mod files;
 pub mod mesh;
-pub mod motion;
+pub mod track;
 pub mod trajectory;

@@ -32,7 +32,7 @@ use foreign::Foreign;
 pub use error::{ParseError, Place, ReadError};
 pub use obj::write_obj;
 pub use stl::write_stl;
-pub use unit::{FileUnit, LengthUnit, UnknownUnit};
+pub use unit::{FileUnit, LengthUnit};
 
 /// Triangles as read from a file, unchecked; positions in metres.
 #[derive(Debug, Clone, PartialEq, Default)]

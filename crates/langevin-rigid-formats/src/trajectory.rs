@@ -5,7 +5,7 @@ mod table;
 use langevin_rigid::State;
 use langevin_rigid::linalg::Vec3;
 
-use crate::motion::Pose;
+use crate::track::Pose;
 pub use table::{CSV_HEADER, TableError, csv, read_csv, write_csv};
 
 /// Poses and velocities of one body in time order, world frame.

@@ -1,6 +1,6 @@
 //! Orthographic cameras.
 
-use crate::vector::{Mat3, Vec3, cross, mul_vec, normalize};
+use crate::vector::{Mat3, Vec3, cross, mat_vec, normalize};
 
 /// One of the four directions a panel can look along.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +44,7 @@ impl Camera {
 
     /// (right, up, toward the viewer) of a world point, metres.
     pub(super) fn project(&self, world: Vec3) -> Vec3 {
-        mul_vec(&self.rows, world)
+        mat_vec(&self.rows, world)
     }
 
     /// The world axes along picture right and picture up, where there are such.

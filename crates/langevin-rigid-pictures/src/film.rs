@@ -7,7 +7,7 @@ use crate::scene::{self, Trail};
 use crate::solid::Solid;
 use crate::strobe::Instants;
 use crate::{Picture, PictureError, PictureOptions, Pose, Subject, axes, legend};
-use langevin_rigid_formats::motion::Motion;
+use langevin_rigid_formats::track::Track;
 
 /// The frames of a motion, all of one size and seen from one place.
 ///
@@ -27,7 +27,7 @@ use langevin_rigid_formats::motion::Motion;
 #[derive(Clone, Debug)]
 pub struct Film<'a> {
     solid: Solid,
-    motion: Motion<'a>,
+    track: Track<'a>,
     layout: Layout,
     title: Option<String>,
     path: bool,
@@ -51,10 +51,10 @@ impl<'a> Film<'a> {
         options: &PictureOptions,
         fps: f64,
     ) -> Result<Self, PictureError> {
-        let motion = Motion::new(poses)?;
+        let track = Track::new(poses)?;
         let solid = Solid::new(subject)?;
-        let layout = Layout::new(&solid, &motion, options)?;
-        let duration = motion.end() - motion.start();
+        let layout = Layout::new(&solid, &track, options)?;
+        let duration = track.end() - track.start();
         let after_first = duration * fps * (1.0 + 1e-9);
         let fits = fps > 0.0 && after_first < Self::MOST_FRAMES as f64;
         if !fits {
@@ -62,7 +62,7 @@ impl<'a> Film<'a> {
         }
         Ok(Self {
             solid,
-            motion,
+            track,
             layout,
             title: options.title.clone(),
             path: options.path,
@@ -82,8 +82,8 @@ impl<'a> Film<'a> {
     ///
     /// [`PictureError::Size`] and [`PictureError::Font`], if at all at the first frame.
     pub fn frame(&self, number: usize) -> Result<Picture, PictureError> {
-        let Self { layout, motion, .. } = self;
-        let time = (motion.start() + number as f64 / self.fps).min(motion.end());
+        let Self { layout, track, .. } = self;
+        let time = (track.start() + number as f64 / self.fps).min(track.end());
         let instants = Instants {
             times: vec![time],
             interval: 0.0,
@@ -102,7 +102,7 @@ impl<'a> Film<'a> {
                 layout,
                 panel,
                 &self.solid,
-                motion,
+                track,
                 &instants,
                 trail,
             );
@@ -110,7 +110,7 @@ impl<'a> Film<'a> {
         // All digits in every frame, so that the words stand still.
         let words = format!("{} s, {}", fixed(time, 3), legend::size(layout));
         legend::draw_header(&mut canvas, layout, self.title.as_deref(), &words);
-        legend::draw_legend(&mut canvas, layout, &self.solid, motion, self.path);
+        legend::draw_legend(&mut canvas, layout, &self.solid, track, self.path);
         Ok(Picture {
             size: layout.size,
             rgba: canvas.into_rgba(),

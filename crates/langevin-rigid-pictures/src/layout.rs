@@ -9,7 +9,7 @@ use crate::raster::View;
 use crate::solid::Solid;
 use crate::vector::{Vec3, mul_mat, sub};
 use crate::{PictureError, PictureOptions};
-use langevin_rigid_formats::motion::Motion;
+use langevin_rigid_formats::track::Track;
 
 /// Lengths in units of the page, which is a pixel on a page of ordinary size.
 const MARGIN: f64 = 36.0;
@@ -136,18 +136,18 @@ pub(super) struct Layout {
 impl Layout {
     pub(super) fn new(
         solid: &Solid,
-        motion: &Motion<'_>,
+        track: &Track<'_>,
         options: &PictureOptions,
     ) -> Result<Self, PictureError> {
         check_size(options)?;
-        let mut layout = Self::magnified(1.0, solid, motion, options);
+        let mut layout = Self::magnified(1.0, solid, track, options);
         // The body's drawn size and the scale that makes room for it settle in a step or two.
         for _ in 0..6 {
             let wanted = layout.wanted_magnification(solid.radius);
             if wanted <= layout.magnification {
                 break;
             }
-            layout = Self::magnified(wanted, solid, motion, options);
+            layout = Self::magnified(wanted, solid, track, options);
         }
         Ok(layout)
     }
@@ -165,10 +165,10 @@ impl Layout {
     fn magnified(
         magnification: f64,
         solid: &Solid,
-        motion: &Motion<'_>,
+        track: &Track<'_>,
         options: &PictureOptions,
     ) -> Self {
-        let (bounds, ground) = bounds(magnification, solid, motion, options.ground);
+        let (bounds, ground) = bounds(magnification, solid, track, options.ground);
         let cameras: Vec<Camera> = options
             .view
             .directions()
@@ -261,12 +261,12 @@ fn check_size(options: &PictureOptions) -> Result<(), PictureError> {
 fn bounds(
     magnification: f64,
     solid: &Solid,
-    motion: &Motion<'_>,
+    track: &Track<'_>,
     ground: Option<f64>,
 ) -> (Bounds, Option<f64>) {
-    let path = Bounds::of(motion.poses().iter().map(|p| p.position));
-    let at = |p: &crate::Pose| Placement::of(motion.at(p.time)).to_world(solid.centre);
-    let bodies = Bounds::of(motion.poses().iter().map(at)).grown(magnification * solid.radius);
+    let path = Bounds::of(track.poses().iter().map(|p| p.position));
+    let at = |p: &crate::Pose| Placement::of(track.at(p.time)).to_world(solid.centre);
+    let bodies = Bounds::of(track.poses().iter().map(at)).grown(magnification * solid.radius);
     let mut bounds = path.union(bodies);
     // Room for a path shorter than the digits of its position, or of no length at all.
     let digits = bounds
@@ -468,7 +468,7 @@ mod tests {
         (0..count).map(pose).collect()
     }
 
-    fn layouts(path: Vec3, count: u32, check: impl Fn(&Layout, &Solid, &Motion<'_>)) {
+    fn layouts(path: Vec3, count: u32, check: impl Fn(&Layout, &Solid, &Track<'_>)) {
         let (mut vertices, triangles) = plate([0.1, 0.002, 0.05]);
         // The reference point need not be in the middle of the mesh.
         vertices.iter_mut().for_each(|v| v[0] += 0.02);
@@ -478,7 +478,7 @@ mod tests {
         };
         let solid = Solid::new(&subject).unwrap();
         let poses = tumbling(path, count);
-        let motion = Motion::new(&poses).unwrap();
+        let track = Track::new(&poses).unwrap();
         for view in VIEWS {
             for size in [None, Some([240, 240]), Some([4000, 300]), Some([300, 4000])] {
                 let options = PictureOptions {
@@ -488,9 +488,9 @@ mod tests {
                     ..PictureOptions::default()
                 };
                 check(
-                    &Layout::new(&solid, &motion, &options).unwrap(),
+                    &Layout::new(&solid, &track, &options).unwrap(),
                     &solid,
-                    &motion,
+                    &track,
                 );
             }
         }
@@ -506,15 +506,15 @@ mod tests {
             ([1e-4, 1e-4, 0.0], 101),
             ([1.0, 1.0, 1.0], 1),
         ] {
-            layouts(path, count, |layout, solid, motion| {
+            layouts(path, count, |layout, solid, track| {
                 let page = Area {
                     low: [0.0; 2],
                     high: layout.size.map(f64::from),
                 };
                 for panel in &layout.panels {
                     assert!(page.covers(&panel.plot), "{path:?} {:?}", panel.plot);
-                    for pose in motion.poses() {
-                        let at = Placement::of(motion.at(pose.time));
+                    for pose in track.poses() {
+                        let at = Placement::of(track.at(pose.time));
                         let body = layout.view(panel, solid, &at).hull().area();
                         assert!(
                             panel.plot.covers(&body),

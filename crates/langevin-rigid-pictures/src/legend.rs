@@ -9,7 +9,7 @@ use crate::palette::{Colour, LOWER_FACE, OUTLINE, TEXT, UPPER_FACE, path as path
 use crate::scene::{end_mark, start_mark};
 use crate::solid::Solid;
 use crate::strobe::Instants;
-use langevin_rigid_formats::motion::Motion;
+use langevin_rigid_formats::track::Track;
 
 /// Page lengths in units.
 const TITLE: f64 = 30.0;
@@ -86,7 +86,7 @@ pub(super) fn draw_legend(
     canvas: &mut Canvas,
     layout: &Layout,
     solid: &Solid,
-    motion: &Motion<'_>,
+    track: &Track<'_>,
     path: bool,
 ) {
     let mut key = Key {
@@ -94,7 +94,7 @@ pub(super) fn draw_legend(
         unit: layout.unit,
         path,
     };
-    let mut entries = key.entries(solid, motion);
+    let mut entries = key.entries(solid, track);
     let area = layout.legend();
     // Long words take a smaller hand; half the size is room for twice the words.
     while key
@@ -104,7 +104,7 @@ pub(super) fn draw_legend(
         && key.unit > 0.5 * layout.unit
     {
         key.unit *= 0.96;
-        entries = key.entries(solid, motion);
+        entries = key.entries(solid, track);
     }
     let places = key.place(canvas, &entries);
     for (entry, place) in entries.iter().zip(places) {
@@ -137,14 +137,14 @@ enum Sign {
 }
 
 impl Key<'_> {
-    fn entries(&self, solid: &Solid, motion: &Motion<'_>) -> Vec<Entry> {
+    fn entries(&self, solid: &Solid, track: &Track<'_>) -> Vec<Entry> {
         let mut entries = Vec::new();
-        if self.path && motion.end() > motion.start() {
+        if self.path && track.end() > track.start() {
             entries.push(Entry {
                 sign: Sign::Path {
-                    start: format!("{} s", short(motion.start())),
+                    start: format!("{} s", short(track.start())),
                 },
-                words: format!("{} s", short(motion.end())),
+                words: format!("{} s", short(track.end())),
             });
         }
         for (sign, colour) in [(1.0, UPPER_FACE), (-1.0, LOWER_FACE)] {

@@ -1,4 +1,4 @@
-//! Pictures of Langevin Rigid: a body at equal times along its path, films of it, maps of regimes.
+//! Pictures of Langevin Rigid: a body at equal times along its path, films of it, maps of kinds over two axes.
 //!
 //! For whoever wants to see a run without a renderer: in a report, in a test, on a server. It draws on the CPU,
 //! without display, graphics card or installed fonts. It knows no science: it is given poses, triangles, numbers and words.
@@ -41,7 +41,7 @@
 //!   colours, so that a flip shows; the path darkens with time. A body that would be too small beside its path is
 //!   magnified, and the caption says how much.
 //! - [`Film`]: the same as frames, one body each, from a camera at rest.
-//! - [`regimes`]: marks of kinds over coloured regions, on two logarithmic axes.
+//! - [`kinds`]: marks of kinds over coloured regions, on two logarithmic axes.
 //!
 //! [`Subject`] is the body, [`Pose`] where it is, [`PictureOptions`] and [`View`] how it is seen, [`Picture`] what comes out.
 //!
@@ -61,6 +61,7 @@ mod canvas;
 mod film;
 mod font;
 mod hull;
+pub mod kinds;
 mod labels;
 mod layout;
 mod legend;
@@ -68,7 +69,6 @@ mod numbers;
 mod palette;
 mod placement;
 mod raster;
-pub mod regimes;
 mod scene;
 mod shadows;
 #[cfg(test)]
@@ -80,13 +80,13 @@ mod vector;
 use canvas::Canvas;
 pub use film::Film;
 use hull::Hull;
-use langevin_rigid_formats::motion::{Motion, MotionError};
+use langevin_rigid_formats::track::{Track, TrackError};
 use layout::Layout;
 use placement::Placement;
 use scene::Trail;
 use solid::Solid;
 
-pub use langevin_rigid_formats::motion::Pose;
+pub use langevin_rigid_formats::track::Pose;
 
 /// The body to draw.
 #[derive(Clone, Copy, Debug)]
@@ -156,9 +156,9 @@ impl Default for PictureOptions {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PictureError {
-    /// The poses are no motion.
+    /// The poses are no track.
     #[error(transparent)]
-    Motion(#[from] MotionError),
+    Track(#[from] TrackError),
     /// The body has no surface.
     #[error("the body has no triangles: give the mesh that was simulated")]
     NoTriangles,
@@ -312,13 +312,13 @@ pub fn trajectory_picture(
     poses: &[Pose],
     options: &PictureOptions,
 ) -> Result<Picture, PictureError> {
-    let motion = Motion::new(poses)?;
+    let track = Track::new(poses)?;
     let solid = Solid::new(subject)?;
-    let layout = Layout::new(&solid, &motion, options)?;
+    let layout = Layout::new(&solid, &track, options)?;
     let instants = match options.interval {
-        Some(interval) => strobe::every(&motion, interval),
-        None => strobe::instants(&motion, options.max_instants, |times| {
-            crowded(&layout, &solid, &motion, times)
+        Some(interval) => strobe::every(&track, interval),
+        None => strobe::instants(&track, options.max_instants, |times| {
+            crowded(&layout, &solid, &track, times)
         }),
     };
     let mut canvas = Canvas::new(layout.size)?;
@@ -334,14 +334,14 @@ pub fn trajectory_picture(
             &layout,
             panel,
             &solid,
-            &motion,
+            &track,
             &instants,
             trail,
         );
     }
     let words = legend::caption(&layout, &instants);
     legend::draw_header(&mut canvas, &layout, options.title.as_deref(), &words);
-    legend::draw_legend(&mut canvas, &layout, &solid, &motion, options.path);
+    legend::draw_legend(&mut canvas, &layout, &solid, &track, options.path);
     Ok(Picture {
         size: layout.size,
         rgba: canvas.into_rgba(),
@@ -351,11 +351,11 @@ pub fn trajectory_picture(
 }
 
 /// Bodies in line with one view may be well apart in the other, so the clearest panel decides.
-fn crowded(layout: &Layout, solid: &Solid, motion: &Motion<'_>, times: &[f64]) -> bool {
+fn crowded(layout: &Layout, solid: &Solid, track: &Track<'_>, times: &[f64]) -> bool {
     layout.panels.iter().all(|panel| {
         let hull = |t: &f64| {
             layout
-                .view(panel, solid, &Placement::of(motion.at(*t)))
+                .view(panel, solid, &Placement::of(track.at(*t)))
                 .hull()
         };
         let apart = 3.0 * layout.unit;

@@ -2,8 +2,8 @@
 
 use langevin_rigid::linalg::rotation_matrix;
 
-use crate::vector::{Mat3, Vec3, add, mul_vec};
-use langevin_rigid_formats::motion::Pose;
+use crate::vector::{Mat3, Vec3, add, mat_vec};
+use langevin_rigid_formats::track::Pose;
 
 /// Where the body is at one time: `world = position + rotation * body`.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ impl Placement {
     }
 
     pub(super) fn to_world(self, body_point: Vec3) -> Vec3 {
-        add(self.position, mul_vec(&self.rotation, body_point))
+        add(self.position, mat_vec(&self.rotation, body_point))
     }
 }
 

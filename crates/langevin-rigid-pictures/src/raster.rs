@@ -8,7 +8,7 @@ use crate::canvas::{Canvas, Point};
 use crate::hull::Hull;
 use crate::palette::{Colour, LOWER_FACE, OUTLINE, PAGE, RIM, UPPER_FACE, mix};
 use crate::solid::Solid;
-use crate::vector::{Mat3, Vec3, add, dot, mul_vec, normalize, scale};
+use crate::vector::{Mat3, Vec3, add, dot, mat_vec, normalize, scale};
 
 /// Samples along a side of a pixel.
 const SAMPLES: usize = 4;
@@ -39,7 +39,7 @@ pub(super) struct View<'a> {
 impl View<'_> {
     /// x and y on the page and the height toward the viewer, pixels.
     pub(super) fn place(&self, body_point: Vec3) -> Vec3 {
-        let [right, up, toward] = scale(self.magnified_scale, mul_vec(&self.rotation, body_point));
+        let [right, up, toward] = scale(self.magnified_scale, mat_vec(&self.rotation, body_point));
         [self.centre[0] + right, self.centre[1] - up, toward]
     }
 
@@ -120,12 +120,12 @@ impl Scene {
 }
 
 fn facets(view: &View<'_>, points: &[Vec3]) -> Vec<Facet> {
-    let thin_axis = mul_vec(&view.rotation, view.solid.thin_axis);
+    let thin_axis = mat_vec(&view.rotation, view.solid.thin_axis);
     let facet = |face: usize| {
         let toward = dot(view.rotation[2], view.solid.face_normals[face]);
         // The side that is seen, even of a sheet without thickness or a mesh turned inside out.
         let seen = if toward < 0.0 { -1.0 } else { 1.0 };
-        let normal = |n: Vec3| scale(seen, mul_vec(&view.rotation, n));
+        let normal = |n: Vec3| scale(seen, mat_vec(&view.rotation, n));
         let visible = toward >= 0.0 || !view.solid.closed;
         let [a, b, c] = view.solid.triangles[face];
         let [na, nb, nc] = view.solid.corner_normals[face];
@@ -172,7 +172,7 @@ fn lines(view: &View<'_>, points: &[Vec3]) -> Vec<Line> {
 fn line(view: &View<'_>, ends: [Vec3; 2], bounds: bool, side: f64) -> Line {
     let samples = SAMPLES as f64;
     let width = samples * view.outline * if bounds { 1.0 } else { 0.6 };
-    let [right, up, _] = mul_vec(&view.rotation, view.solid.thin_axis);
+    let [right, up, _] = mat_vec(&view.rotation, view.solid.thin_axis);
     let tilt = (right * right + up * up).sqrt();
     let flat = ((side.abs() - 0.3) / 0.4).clamp(0.0, 1.0).copysign(side);
     let face = if side > 0.0 { UPPER_FACE } else { LOWER_FACE };

@@ -12,7 +12,7 @@ use crate::shadows;
 use crate::solid::Solid;
 use crate::strobe::Instants;
 use crate::vector::{norm, sub};
-use langevin_rigid_formats::motion::Motion;
+use langevin_rigid_formats::track::Track;
 
 /// Page lengths in units.
 const PATH_WIDTH: f64 = 3.4;
@@ -69,16 +69,16 @@ pub(super) fn draw(
     layout: &Layout,
     panel: &Panel,
     solid: &Solid,
-    motion: &Motion<'_>,
+    track: &Track<'_>,
     instants: &Instants,
     trail: Trail,
 ) {
     let bodies: Vec<Body<'_>> = instants
         .times
         .iter()
-        .map(|t| body(layout, panel, solid, Placement::of(motion.at(*t))))
+        .map(|t| body(layout, panel, solid, Placement::of(track.at(*t))))
         .collect();
-    let places = places(layout, panel, motion, trail);
+    let places = places(layout, panel, track, trail);
     let pieces = pieces(layout, solid, &places, &bodies);
     if panel.camera.direction == Direction::Iso {
         let placements: Vec<Placement> = bodies.iter().map(|b| b.placement).collect();
@@ -90,7 +90,7 @@ pub(super) fn draw(
         return;
     }
     let marks = match trail {
-        Trail::Whole => draw_marks(canvas, layout, panel, motion),
+        Trail::Whole => draw_marks(canvas, layout, panel, track),
         _ => Vec::new(),
     };
     let hulls: Vec<Hull> = bodies.iter().map(|b| b.hull).collect();
@@ -123,17 +123,17 @@ struct Place {
 }
 
 /// The points of the path a visible distance apart.
-fn places(layout: &Layout, panel: &Panel, motion: &Motion<'_>, trail: Trail) -> Vec<Place> {
-    let poses = motion.poses();
+fn places(layout: &Layout, panel: &Panel, track: &Track<'_>, trail: Trail) -> Vec<Place> {
+    let poses = track.poses();
     let until = match trail {
         Trail::None => return Vec::new(),
-        Trail::Whole => motion.end(),
+        Trail::Whole => track.end(),
         Trail::Until(time) => time,
     };
     let place = |position: [f64; 3], time: f64| Place {
         world: position,
         on_page: panel.place(position),
-        when: (time - motion.start()) / duration(motion),
+        when: (time - track.start()) / duration(track),
     };
     let least = 0.4 * layout.unit;
     let mut places: Vec<Place> = Vec::new();
@@ -144,12 +144,12 @@ fn places(layout: &Layout, panel: &Panel, motion: &Motion<'_>, trail: Trail) -> 
             places.push(next);
         }
     }
-    places.push(place(motion.at(until).position, until));
+    places.push(place(track.at(until).position, until));
     places
 }
 
-fn duration(motion: &Motion<'_>) -> f64 {
-    (motion.end() - motion.start()).max(f64::MIN_POSITIVE)
+fn duration(track: &Track<'_>) -> f64 {
+    (track.end() - track.start()).max(f64::MIN_POSITIVE)
 }
 
 fn pieces(layout: &Layout, solid: &Solid, places: &[Place], bodies: &[Body<'_>]) -> Vec<Piece> {
@@ -262,20 +262,15 @@ fn paint(canvas: &mut Canvas, layout: &Layout, pieces: &[Piece], bodies: &[Body<
 }
 
 /// A ring at the start of the path and a dot at its end; gives the areas they cover.
-fn draw_marks(
-    canvas: &mut Canvas,
-    layout: &Layout,
-    panel: &Panel,
-    motion: &Motion<'_>,
-) -> Vec<Area> {
+fn draw_marks(canvas: &mut Canvas, layout: &Layout, panel: &Panel, track: &Track<'_>) -> Vec<Area> {
     let radius = MARK * layout.unit;
     let mark = |time: f64| {
-        let [x, y, _] = panel.place(motion.at(time).position);
+        let [x, y, _] = panel.place(track.at(time).position);
         [x, y]
     };
-    let (start, end) = (mark(motion.start()), mark(motion.end()));
+    let (start, end) = (mark(track.start()), mark(track.end()));
     end_mark(canvas, end, radius);
-    if motion.end() > motion.start() {
+    if track.end() > track.start() {
         start_mark(canvas, start, radius);
     }
     [start, end]

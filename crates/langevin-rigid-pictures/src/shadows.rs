@@ -6,7 +6,7 @@ use crate::layout::{Layout, Panel};
 use crate::palette::{FRAME, SHADOW};
 use crate::placement::Placement;
 use crate::solid::Solid;
-use crate::vector::{Vec3, add, mul_vec, scale};
+use crate::vector::{Vec3, add, mat_vec, scale};
 
 /// Sizes of the layers that make the edge of a shadow soft.
 const LAYERS: [f64; 4] = [1.16, 1.08, 1.0, 0.92];
@@ -30,7 +30,7 @@ pub(super) fn draw(
         let centre = body.to_world(solid.centre);
         let strength = 0.22 - 0.16 * ((centre[1] - floor) / height).clamp(0.0, 1.0);
         let cast = |v: &Vec3| {
-            let offset = scale(layout.magnification, mul_vec(&body.rotation, *v));
+            let offset = scale(layout.magnification, mat_vec(&body.rotation, *v));
             fall(add(centre, offset))
         };
         let hull = convex_hull(solid.vertices.iter().map(cast).collect());

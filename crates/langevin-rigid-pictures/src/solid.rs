@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use langevin_rigid::linalg::eigen_symmetric;
+
 use crate::vector::{Mat3, Vec3, add, cross, dot, norm, normalize, scale, sub};
 use crate::{PictureError, Subject};
 
@@ -195,7 +197,8 @@ fn is_closed(vertices: &[Vec3], triangles: &[[usize; 3]]) -> bool {
 /// y, then z, then x), otherwise the principal axis with its largest component positive.
 fn thin_axis(vertices: &[Vec3], triangles: &[[usize; 3]], area_normals: &[Vec3]) -> Vec3 {
     let spread = surface_spread(vertices, triangles, area_normals);
-    let (least, principal) = least_eigenpair(spread);
+    let ([least, ..], axes) = eigen_symmetric(&spread);
+    let principal = axes.map(|row| row[0]);
     let tolerance = 1.05 * least + 1e-6 * (spread[0][0] + spread[1][1] + spread[2][2]);
     for i in [1, 2, 0] {
         if spread[i][i] <= tolerance {
@@ -228,38 +231,6 @@ fn surface_spread(vertices: &[Vec3], triangles: &[[usize; 3]], area_normals: &[V
         }
     }
     spread
-}
-
-/// Smallest eigenvalue of a symmetric matrix and its unit eigenvector, by Jacobi rotations.
-fn least_eigenpair(mut m: Mat3) -> (f64, Vec3) {
-    let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    for _sweep in 0..12 {
-        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            jacobi_rotation(&mut m, &mut axes, p, q);
-        }
-    }
-    let least = (0..3).fold(0, |l, i| if m[i][i] < m[l][l] { i } else { l });
-    (m[least][least], axes[least])
-}
-
-/// Turns rows p and q of `axes`, and `m` with them, so that `m[p][q]` vanishes.
-fn jacobi_rotation(m: &mut Mat3, axes: &mut Mat3, p: usize, q: usize) {
-    if m[p][q].abs() < f64::MIN_POSITIVE {
-        return;
-    }
-    let theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
-    let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
-    let c = 1.0 / (t * t + 1.0).sqrt();
-    let s = t * c;
-    for k in 0..3 {
-        let (kp, kq) = (m[k][p], m[k][q]);
-        (m[k][p], m[k][q]) = (c * kp - s * kq, s * kp + c * kq);
-    }
-    for rows in [m, axes] {
-        let (rp, rq) = (rows[p], rows[q]);
-        rows[p] = sub(scale(c, rp), scale(s, rq));
-        rows[q] = add(scale(s, rp), scale(c, rq));
-    }
 }
 
 #[cfg(test)]

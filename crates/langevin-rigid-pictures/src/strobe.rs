@@ -2,7 +2,7 @@
 
 use crate::hull::Hull;
 use crate::numbers::fine_above;
-use langevin_rigid_formats::motion::Motion;
+use langevin_rigid_formats::track::Track;
 
 /// Overlapping pairs tolerated, and more for each body drawn: a body released from rest overlaps
 /// itself at the start, however far apart the rest are.
@@ -18,11 +18,11 @@ pub(super) struct Instants {
 /// At most `most` instants from the start of the motion, the shortest round interval apart at
 /// which the bodies are not `crowded`; failing that, the start and the end.
 pub(super) fn instants(
-    motion: &Motion<'_>,
+    track: &Track<'_>,
     most: usize,
     crowded: impl Fn(&[f64]) -> bool,
 ) -> Instants {
-    let (start, duration) = (motion.start(), motion.end() - motion.start());
+    let (start, duration) = (track.start(), track.end() - track.start());
     if most < 2 || duration <= 0.0 {
         let times = vec![start; most.min(1)];
         return Instants {
@@ -34,7 +34,7 @@ pub(super) fn instants(
     loop {
         let count = (duration / interval * (1.0 + 1e-9)) as usize + 1;
         if count <= 2 {
-            let times = vec![start, motion.end()];
+            let times = vec![start, track.end()];
             return Instants {
                 times,
                 interval: duration,
@@ -53,15 +53,15 @@ const MOST: usize = 256;
 
 /// All multiples of `interval` from the start of the motion, up to a limit; the start alone for
 /// an interval that is not positive.
-pub(super) fn every(motion: &Motion<'_>, interval: f64) -> Instants {
-    let steps = (motion.end() - motion.start()) / interval * (1.0 + 1e-9);
+pub(super) fn every(track: &Track<'_>, interval: f64) -> Instants {
+    let steps = (track.end() - track.start()) / interval * (1.0 + 1e-9);
     let more = if interval > 0.0 {
         (steps as usize).min(MOST - 1)
     } else {
         0
     };
-    let after = (1..=more).map(|k| motion.start() + k as f64 * interval);
-    let times = std::iter::once(motion.start()).chain(after).collect();
+    let after = (1..=more).map(|k| track.start() + k as f64 * interval);
+    let times = std::iter::once(track.start()).chain(after).collect();
     Instants { times, interval }
 }
 
@@ -89,11 +89,11 @@ mod tests {
     #[test]
     fn the_interval_is_round_and_as_short_as_allowed() {
         let poses = poses(&[0.0, 3.0]);
-        let motion = Motion::new(&poses).unwrap();
-        let free = instants(&motion, 31, |_| false);
+        let track = Track::new(&poses).unwrap();
+        let free = instants(&track, 31, |_| false);
         assert_eq!(free.times.len(), 31);
         assert!((free.interval - 0.1).abs() < 1e-15);
-        let spaced = instants(&motion, 31, |times| times[1] - times[0] < 0.45);
+        let spaced = instants(&track, 31, |times| times[1] - times[0] < 0.45);
         assert!((spaced.interval - 0.5).abs() < 1e-15);
         assert_eq!(spaced.times.len(), 7);
     }
@@ -101,20 +101,20 @@ mod tests {
     #[test]
     fn a_given_interval_is_kept() {
         let poses = poses(&[1.0, 2.5]);
-        let motion = Motion::new(&poses).unwrap();
-        assert_eq!(every(&motion, 0.5).times, [1.0, 1.5, 2.0, 2.5]);
-        assert_eq!(every(&motion, 1e-9).times.len(), MOST);
-        assert_eq!(every(&motion, -1.0).times, [1.0]);
-        assert_eq!(every(&motion, f64::NAN).times, [1.0]);
+        let track = Track::new(&poses).unwrap();
+        assert_eq!(every(&track, 0.5).times, [1.0, 1.5, 2.0, 2.5]);
+        assert_eq!(every(&track, 1e-9).times.len(), MOST);
+        assert_eq!(every(&track, -1.0).times, [1.0]);
+        assert_eq!(every(&track, f64::NAN).times, [1.0]);
     }
 
     #[test]
     fn a_body_that_stays_is_drawn_at_start_and_end() {
         let poses = poses(&[1.0, 4.0]);
-        let motion = Motion::new(&poses).unwrap();
-        let ends = instants(&motion, 30, |_| true);
+        let track = Track::new(&poses).unwrap();
+        let ends = instants(&track, 30, |_| true);
         assert_eq!(ends.times, [1.0, 4.0]);
-        assert_eq!(instants(&motion, 1, |_| true).times, [1.0]);
-        assert!(instants(&motion, 0, |_| true).times.is_empty());
+        assert_eq!(instants(&track, 1, |_| true).times, [1.0]);
+        assert!(instants(&track, 0, |_| true).times.is_empty());
     }
 }

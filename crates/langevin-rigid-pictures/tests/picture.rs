@@ -5,7 +5,7 @@
 //! failure means a body that is missing, cut off, seen from the wrong side or painted in the wrong
 //! order, words that are not there, or a picture that is not the same every time.
 
-use langevin_rigid_formats::motion::MotionError;
+use langevin_rigid_formats::track::TrackError;
 use langevin_rigid_pictures::{
     Film, Picture, PictureError, PictureOptions, Pose, Subject, View, trajectory_picture,
 };
@@ -307,7 +307,7 @@ fn what_cannot_be_drawn_is_named() {
     let good = at(0.0, [0.0; 3], LEVEL);
     assert_eq!(
         fails(&SHEET, &[], None),
-        PictureError::Motion(MotionError::NoPoses)
+        PictureError::Track(TrackError::NoPoses)
     );
     for bad in [
         at(f64::NAN, [0.0; 3], LEVEL),
@@ -320,7 +320,7 @@ fn what_cannot_be_drawn_is_named() {
         assert!(
             matches!(
                 error,
-                PictureError::Motion(MotionError::BadPose { index: 1, .. })
+                PictureError::Track(TrackError::BadPose { index: 1, .. })
             ),
             "{error}"
         );
@@ -329,7 +329,7 @@ fn what_cannot_be_drawn_is_named() {
     let backward = [at(1.0, [0.0; 3], LEVEL), good];
     assert_eq!(
         fails(&SHEET, &backward, None),
-        PictureError::Motion(MotionError::TimeOrder { index: 1 })
+        PictureError::Track(TrackError::TimeOrder { index: 1 })
     );
     for [width, height] in [[0, 800], [800, 0], [100_000, 800], [u32::MAX, u32::MAX]] {
         let error = fails(&SHEET, &[good], Some([width, height]));

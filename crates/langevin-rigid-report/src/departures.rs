@@ -1,5 +1,6 @@
 //! Where the program departs from print: each run both ways, with its consequence.
 
+use langevin_rigid::linalg::vector::norm;
 use langevin_rigid::turbulence::TurbulenceHistory;
 use langevin_rigid::{
     Bake, Body, Fluid, Integrator, Model, NoiseStream, SPEED_LIMIT, Settings, State, Stepper,
@@ -13,7 +14,7 @@ use langevin_rigid_scenes::baking;
 use rayon::prelude::*;
 
 use crate::chart::{Chart, Curve};
-use crate::measures::{Axes, norm};
+use crate::measures::Axes;
 use crate::numbers::significant;
 use crate::runs::{CONSISTENT, CONSISTENT_HISTORY, Reading, Setting};
 use crate::section::{Section, figure};

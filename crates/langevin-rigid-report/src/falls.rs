@@ -3,12 +3,13 @@
 use std::fmt::Write;
 
 use langevin_rigid::State;
+use langevin_rigid::linalg::vector::norm;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::trajectory::{Trajectory, csv};
 use langevin_rigid_pictures::View;
 
 use crate::chart::{Chart, Curve};
-use crate::measures::{Axes, FIELDS, Field, Measures, Scale, norm};
+use crate::measures::{Axes, FIELDS, Field, Measures, Scale};
 use crate::runs::{
     CONSISTENT, CONSISTENT_HISTORY, Fall, KIRCHHOFF, READINGS, Reading, SEPARATED, Setting, typical,
 };

@@ -8,7 +8,7 @@
 //! use langevin_rigid_report::{Options, Part, reproduce};
 //!
 //! let options = Options {
-//!     parts: Part::named("fig2").into_iter().collect(),
+//!     parts: vec![Part::named("fig2")?],
 //!     seeds: 1,
 //!     first_seed: 1,
 //!     cache: None,
@@ -47,7 +47,7 @@ mod table2;
 
 use std::path::{Path, PathBuf};
 
-use langevin_rigid::SetupError;
+use langevin_rigid::{SetupError, UnknownName, choose};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::turbulence::TurbulenceError;
 use langevin_rigid_formats::files::{self, WriteError};
@@ -122,8 +122,11 @@ pub const PARTS: &[Part] = &[
 
 impl Part {
     /// The part of a name.
-    pub fn named(name: &str) -> Option<Self> {
-        PARTS.iter().find(|p| p.name == name).copied()
+    ///
+    /// # Errors
+    /// [`UnknownName`] if there is none.
+    pub fn named(name: &str) -> Result<Self, UnknownName> {
+        choose("part", name, PARTS.iter().map(|part| (part.name, *part)))
     }
 }
 

@@ -3,6 +3,7 @@
 //! The path is smoothed first by a moving average, so that the step-to-step noise does not count as
 //! motion.
 
+use langevin_rigid::linalg::vector::{dot, norm};
 use langevin_rigid::linalg::{Vec3, eigen_symmetric, rotate};
 use langevin_rigid::{Body, State};
 use langevin_rigid_scenes::ensemble::MotionTracker;
@@ -205,14 +206,6 @@ impl Measures {
             ..Self::default()
         }
     }
-}
-
-pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
-    a.iter().zip(&b).map(|(a, b)| a * b).sum()
-}
-
-pub(crate) fn norm(a: Vec3) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// The horizontal path (x, z) as the moving average over `window` (s), narrower near the ends.

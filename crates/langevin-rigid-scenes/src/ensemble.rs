@@ -6,7 +6,7 @@
 //! [`Fall`]s.
 
 mod fall;
-mod motion;
+mod motion_class;
 mod scatter;
 mod side_by_side;
 mod statistics;
@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use crate::prepared::Prepared;
 pub use fall::{Fall, FallEnding, SAMPLES_PER_SECOND};
-pub use motion::{Motion, MotionTracker};
+pub use motion_class::{MotionClass, MotionTracker};
 pub use scatter::scattered_release;
 pub use side_by_side::side_by_side;
 pub use statistics::{Statistics, landings_csv};
@@ -52,7 +52,7 @@ pub use statistics::{Statistics, landings_csv};
 pub fn run(prepared: &Prepared, runs: Range<u32>, progress: &dyn Progress) -> Vec<Fall> {
     let setup = fall::Setup {
         prepared,
-        thin_axis: motion::thin_axis(prepared.body()),
+        thin_axis: motion_class::thin_axis(prepared.body()),
     };
     let all = runs.len().max(1) as f64;
     let runs: Vec<u32> = runs.collect();

@@ -4,6 +4,7 @@
 //! [`Scene::to_toml`] writes the resolved scene, which reads back as the same scene.
 //! [`find`] opens a built-in scene by name or a file by path; [`BUILT_IN`] is their one registry.
 
+mod body;
 mod grid;
 mod place;
 mod quantity;
@@ -15,17 +16,12 @@ mod seed;
 mod separated;
 mod shape;
 mod surroundings;
-fn relative_speed(release: &State, fluid: &Fluid) -> f64 {
-    let released = release.world_velocity();
-    let relative: [f64; 3] = std::array::from_fn(|i| released[i] - fluid.velocity[i]);
-    relative.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 #[cfg(test)]
 mod tests;
 
 use std::path::PathBuf;
 
+use langevin_rigid::linalg::vector::{norm, sub};
 use langevin_rigid::{Fluid, Model, Settings, State, StopAt, Tank};
 use langevin_rigid_bake::body::BodySpec;
 use langevin_rigid_bake::shapes::Shape;
@@ -190,7 +186,7 @@ impl Scene {
             scatter: release::scatter(&doc, &raw.scatter)?,
             carried: release::carried(&doc, &raw.release)?,
             // Last: it makes a mesh.
-            body: shape::resolve(&doc, &raw.body)?,
+            body: body::resolve(&doc, &raw.body)?,
             fluid,
             release,
             stop,
@@ -244,7 +240,7 @@ impl Scene {
                     velocity: given(self.fluid.velocity.to_vec()),
                 },
             ),
-            body: Spanned::new(0..0, shape::write(&self.body)?),
+            body: Spanned::new(0..0, body::write(&self.body)?),
             release: release::write(&self.release, self.carried),
             run: Spanned::new(
                 0..0,
@@ -274,4 +270,9 @@ impl Scene {
             }),
         })
     }
+}
+
+/// Of the body and the fluid at the release (m/s).
+fn relative_speed(release: &State, fluid: &Fluid) -> f64 {
+    norm(sub(release.world_velocity(), fluid.velocity))
 }

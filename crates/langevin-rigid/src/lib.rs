@@ -46,7 +46,7 @@
 //!
 //! # Modules
 //!
-//! Everything is at the root but two modules: [`linalg`], the rotations and small matrices that the types are
+//! Everything is at the root but two modules: [`linalg`], the vectors, rotations and small matrices that the types are
 //! written in, and [`turbulence`], the precomputed history and the coefficients of the Langevin equation.
 //! [`Wake`], [`stokes_translation`] and [`shift_added_mass`] are what the precomputation shares with the run time.
 //!
@@ -66,6 +66,7 @@ mod bake;
 mod batch;
 mod body;
 mod carlson;
+mod choice;
 mod elementary;
 mod equations;
 mod fluid;
@@ -103,6 +104,7 @@ mod world;
 pub use bake::{Bake, BakeError};
 pub use batch::{Batch, BatchError, Pack, Precision};
 pub use body::{Body, BodyError, MOST_SLICES, Separation, Slice, Surface, shift_added_mass};
+pub use choice::{UnknownName, choose};
 pub use equations::SPEED_LIMIT;
 pub use fluid::{Fluid, GRAVITY};
 pub use input::{Flow, Input, Wrench};
@@ -111,7 +113,7 @@ pub use noise::{NORMALS_PER_STEP, NoiseStream};
 pub use published::UnitSystem;
 pub use run::{Ending, Hull, StopAt, run};
 pub use separated::SeparatedFlow;
-pub use settings::{Integrator, Model, Settings, UnknownName};
+pub use settings::{Integrator, Model, Settings};
 pub use state::State;
 pub use stepper::{SetupError, StepError, Stepper, falling_reynolds, falling_speed};
 pub use stokes::{stokes_rotation, stokes_translation};

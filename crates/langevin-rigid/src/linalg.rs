@@ -1,7 +1,9 @@
 //! Small dense algebra on plain arrays: three-vectors, unit quaternions, 6x6 tensors.
 //!
 //! Every function is straight-line arithmetic in a fixed order, so results have the same bits on
-//! every platform.
+//! every platform. Those of three-vectors are in lanes here, and in `f64` for all in [`vector`].
+
+pub mod vector;
 
 use crate::elementary::half_angle;
 use crate::real::Real;

@@ -1,5 +1,6 @@
 //! What a run may choose, by the names that scenes and the command line use.
 
+use crate::choice::{UnknownName, choose};
 use crate::fluid::GRAVITY;
 use crate::linalg::Vec3;
 use crate::published::UnitSystem;
@@ -90,34 +91,18 @@ impl Default for Settings {
     }
 }
 
-/// A name that no choice has.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{name}` is no {what}; choose one of {known}")]
-pub struct UnknownName {
-    /// What was being named.
-    pub what: &'static str,
-    /// The name as given.
-    pub name: String,
-    /// The names there are.
-    pub known: &'static str,
-}
-
 impl std::str::FromStr for Model {
     type Err = UnknownName;
 
     fn from_str(name: &str) -> Result<Self, UnknownName> {
-        match name {
-            "consistent" => Ok(Self::Consistent),
-            "published" => Ok(Self::Published(UnitSystem::Cgs)),
-            "published-si" => Ok(Self::Published(UnitSystem::Si)),
-            "kirchhoff" => Ok(Self::Kirchhoff),
-            "separated" => Ok(Self::Separated),
-            _ => Err(UnknownName {
-                what: "model",
-                name: name.into(),
-                known: "consistent, published, published-si, kirchhoff, separated",
-            }),
-        }
+        let choices = [
+            ("consistent", Self::Consistent),
+            ("published", Self::Published(UnitSystem::Cgs)),
+            ("published-si", Self::Published(UnitSystem::Si)),
+            ("kirchhoff", Self::Kirchhoff),
+            ("separated", Self::Separated),
+        ];
+        choose("model", name, choices)
     }
 }
 
@@ -137,15 +122,8 @@ impl std::str::FromStr for Integrator {
     type Err = UnknownName;
 
     fn from_str(name: &str) -> Result<Self, UnknownName> {
-        match name {
-            "strang" => Ok(Self::Strang),
-            "rk4" => Ok(Self::RungeKutta4),
-            _ => Err(UnknownName {
-                what: "integrator",
-                name: name.into(),
-                known: "strang, rk4",
-            }),
-        }
+        let choices = [("strang", Self::Strang), ("rk4", Self::RungeKutta4)];
+        choose("integrator", name, choices)
     }
 }
 
@@ -162,21 +140,23 @@ impl std::str::FromStr for TurbulenceSource {
     type Err = UnknownName;
 
     fn from_str(name: &str) -> Result<Self, UnknownName> {
-        let unknown = || UnknownName {
-            what: "turbulence source",
-            name: name.into(),
-            known: "body-driven, wake-age=LENGTHS (body-driven, sampled so many lengths l behind), history",
-        };
-        match name {
-            "body-driven" => Ok(Self::BodyDriven { wake_age: 0.0 }),
-            "history" => Ok(Self::History),
-            _ => name
-                .strip_prefix("wake-age=")
-                .and_then(|age| age.parse::<f64>().ok())
-                .filter(|age| age.is_finite() && *age >= 0.0)
-                .map(|wake_age| Self::BodyDriven { wake_age })
-                .ok_or_else(unknown),
+        let wake_age = name
+            .strip_prefix("wake-age=")
+            .and_then(|age| age.parse::<f64>().ok())
+            .filter(|age| age.is_finite() && *age >= 0.0);
+        if let Some(wake_age) = wake_age {
+            return Ok(Self::BodyDriven { wake_age });
         }
+        let choices = [
+            ("body-driven", Self::BodyDriven { wake_age: 0.0 }),
+            ("history", Self::History),
+        ];
+        choose("turbulence source", name, choices).map_err(|mut unknown| {
+            unknown
+                .known
+                .push("wake-age=LENGTHS (body-driven, sampled so many lengths l behind)");
+            unknown
+        })
     }
 }
 

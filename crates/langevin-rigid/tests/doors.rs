@@ -3,31 +3,15 @@
 
 mod common;
 
-use common::{chiral, distance, ellipsoid, frozen, norm};
-use langevin_rigid::linalg::quat_from_rotation_vector;
+use common::{chiral, distance, ellipsoid, frozen};
+use langevin_rigid::linalg::vector::{add, cross, norm, scale};
+use langevin_rigid::linalg::{Vec3, quat_from_rotation_vector};
 use langevin_rigid::{
     Batch, Body, Flow, Fluid, Input, Integrator, Model, NoiseStream, Settings, Slice, State,
     StepError, Stepper, TurbulenceSource, Wrench,
 };
 
-type Vec3 = [f64; 3];
-
 const WEIGHTLESS: Vec3 = [0.0; 3];
-
-fn add(a: Vec3, b: Vec3) -> Vec3 {
-    std::array::from_fn(|i| a[i] + b[i])
-}
-
-fn scale(s: f64, a: Vec3) -> Vec3 {
-    a.map(|x| s * x)
-}
-
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
-}
 
 /// Every model with the integrators it has.
 fn compositions() -> Vec<(Model, Integrator)> {

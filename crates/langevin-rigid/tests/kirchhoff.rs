@@ -9,7 +9,8 @@
 
 mod common;
 
-use common::{chiral, distance, ellipsoid, norm};
+use common::{chiral, distance, ellipsoid};
+use langevin_rigid::linalg::vector::norm;
 use langevin_rigid::linalg::{quat_from_rotation_vector, rotate};
 use langevin_rigid::{Body, Fluid, GRAVITY, Input, Integrator, Model, Settings, State, Stepper};
 

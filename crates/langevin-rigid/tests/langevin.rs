@@ -8,7 +8,8 @@
 
 mod common;
 
-use common::{chiral, ellipsoid, frozen, norm};
+use common::{chiral, ellipsoid, frozen};
+use langevin_rigid::linalg::vector::norm;
 use langevin_rigid::{
     Body, Fluid, Input, Integrator, LangevinCoefficients, Model, NoiseStream, Settings, State,
     StepError, Stepper, Turbulence, TurbulenceSource, falling_speed,

@@ -3,7 +3,8 @@
 
 mod common;
 
-use common::{chiral, distance, norm};
+use common::{chiral, distance};
+use langevin_rigid::linalg::vector::{cross, norm, sub};
 use langevin_rigid::linalg::{quat_from_rotation_vector, rotate, rotate_back};
 use langevin_rigid::{Body, BodyError, Fluid, GRAVITY, Input, Model, Settings, State, Stepper};
 
@@ -26,10 +27,6 @@ fn stepper(body: &Body, fluid: &Fluid) -> Stepper {
         ..Settings::default()
     };
     Stepper::new(body, fluid, None, &settings).unwrap()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
 }
 
 fn slender() -> Body {
@@ -101,11 +98,10 @@ fn energy_and_impulses_follow_the_shift_rule() {
             alone.added_mass = [[0.0; 6]; 6];
             let alone = stepper(&alone, &Fluid::WATER);
             let all = stepper(body, &Fluid::WATER);
-            let difference = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|i| a[i] - b[i]);
             (
                 all.kinetic_energy(state) - alone.kinetic_energy(state),
-                difference(all.linear_impulse(state), alone.linear_impulse(state)),
-                difference(all.angular_impulse(state), alone.angular_impulse(state)),
+                sub(all.linear_impulse(state), alone.linear_impulse(state)),
+                sub(all.angular_impulse(state), alone.angular_impulse(state)),
             )
         };
         let (energy, impulse, angular) = dry(&body, &state);

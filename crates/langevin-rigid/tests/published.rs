@@ -9,7 +9,8 @@
 
 mod common;
 
-use common::{ellipsoid, frozen, norm};
+use common::{ellipsoid, frozen};
+use langevin_rigid::linalg::vector::norm;
 use langevin_rigid::{
     Body, Fluid, Input, Integrator, Model, NoiseStream, Settings, State, StepError, Stepper,
     Turbulence, TurbulenceSource, falling_speed,

@@ -1,5 +1,7 @@
 //! Checks of an inertia tensor given by hand.
 
+use langevin_rigid::linalg::eigen_symmetric;
+
 use super::MassError;
 
 /// Relative tolerance for symmetry and for the triangle inequality, which flat bodies meet with
@@ -42,10 +44,10 @@ pub fn check_inertia(inertia: [[f64; 3]; 3]) -> Result<[[f64; 3]; 3], MassError>
 }
 
 fn symmetrized(m: [[f64; 3]; 3]) -> Result<[[f64; 3]; 3], MassError> {
-    let largest = m.as_flattened().iter().fold(0.0f64, |a, x| a.max(x.abs()));
+    let tolerance = TOLERANCE * largest(&m);
     for (row, column) in [(0, 1), (0, 2), (1, 2)] {
         let (upper, lower) = (m[row][column], m[column][row]);
-        if (upper - lower).abs() > TOLERANCE * largest {
+        if (upper - lower).abs() > tolerance {
             return Err(MassError::NotSymmetric {
                 row,
                 column,
@@ -57,7 +59,7 @@ fn symmetrized(m: [[f64; 3]; 3]) -> Result<[[f64; 3]; 3], MassError> {
     Ok([0, 1, 2].map(|i| [0, 1, 2].map(|j| 0.5 * (m[i][j] + m[j][i]))))
 }
 
-/// Eigenvalues of a symmetric 3×3 matrix, ascending, by cyclic Jacobi rotations.
+/// Eigenvalues of a symmetric 3×3 matrix, ascending.
 ///
 /// ```
 /// use langevin_rigid_bake::mass_properties::principal_moments;
@@ -67,35 +69,14 @@ fn symmetrized(m: [[f64; 3]; 3]) -> Result<[[f64; 3]; 3], MassError> {
 ///     assert!((got - expected).abs() < 1e-14);
 /// }
 /// ```
-pub fn principal_moments(mut m: [[f64; 3]; 3]) -> [f64; 3] {
-    // Convergence is quadratic: six sweeps reach rounding, ten are certain.
-    for _ in 0..10 {
-        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            rotate(&mut m, p, q);
-        }
-    }
-    let mut moments = [m[0][0], m[1][1], m[2][2]];
-    moments.sort_unstable_by(f64::total_cmp);
-    moments
+pub fn principal_moments(m: [[f64; 3]; 3]) -> [f64; 3] {
+    // Squares of entries near the ends of the range overflow or vanish.
+    let size = largest(&m).max(f64::MIN_POSITIVE);
+    let (moments, _) = eigen_symmetric(&m.map(|row| row.map(|x| x / size)));
+    moments.map(|x| x * size)
 }
 
-/// The Jacobi rotation that makes entry (p, q) zero (Golub & Van Loan, section 8.5).
-fn rotate(m: &mut [[f64; 3]; 3], p: usize, q: usize) {
-    if m[p][q] == 0.0 {
-        return;
-    }
-    let theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
-    let t = 1f64.copysign(theta) / (theta.abs() + libm::hypot(theta, 1.0));
-    let cos = 1.0 / (1.0 + t * t).sqrt();
-    let sin = t * cos;
-    for k in 0..3 {
-        let (a, b) = (m[k][p], m[k][q]);
-        m[k][p] = cos * a - sin * b;
-        m[k][q] = sin * a + cos * b;
-    }
-    for k in 0..3 {
-        let (a, b) = (m[p][k], m[q][k]);
-        m[p][k] = cos * a - sin * b;
-        m[q][k] = sin * a + cos * b;
-    }
+/// Size of the largest entry.
+fn largest(m: &[[f64; 3]; 3]) -> f64 {
+    m.as_flattened().iter().fold(0.0, |a, x| a.max(x.abs()))
 }

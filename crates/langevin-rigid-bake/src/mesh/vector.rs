@@ -1,45 +1,16 @@
-//! Three-vectors and 3×3 matrices as plain arrays, for geometry.
+//! The run time's algebra of three-vectors, and what geometry needs besides.
+
+pub(crate) use langevin_rigid::linalg::vector::{add, cross, dot, mat_vec, norm, scale, sub};
 
 /// The unit matrix.
 pub(crate) const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
-pub(crate) fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-pub(crate) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-pub(crate) fn scale(s: f64, a: [f64; 3]) -> [f64; 3] {
-    [s * a[0], s * a[1], s * a[2]]
-}
-
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-pub(crate) fn norm(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
 
 /// Unit vector along `a` (not a number where `a` is zero).
 pub(crate) fn unit(a: [f64; 3]) -> [f64; 3] {
     scale(1.0 / norm(a), a)
 }
 
-pub(crate) fn mat_vec(m: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
-    m.map(|row| dot(row, v))
-}
-
+/// The determinant.
 pub(crate) fn det(m: &[[f64; 3]; 3]) -> f64 {
     dot(m[0], cross(m[1], m[2]))
 }

@@ -96,7 +96,7 @@ pub(super) fn wrap(
 fn surround(corners: &[grid::Corners], size: f64) -> Result<(f64, TriMesh), WrapError> {
     let offset = 0.5 * size;
     let pitch = offset / OFFSET;
-    let (nodes, shape) = Grid::shape(corners, pitch).ok_or(WrapError::Nothing)?;
+    let (nodes, lattice) = Grid::lattice(corners, pitch).ok_or(WrapError::Nothing)?;
     if nodes > MOST_NODES {
         return Err(WrapError::TooFine {
             size,
@@ -104,7 +104,7 @@ fn surround(corners: &[grid::Corners], size: f64) -> Result<(f64, TriMesh), Wrap
             advised: advised(corners, size * libm::cbrt(nodes / MOST_NODES)),
         });
     }
-    let grid = Grid::new(corners, pitch, offset, shape);
+    let grid = Grid::new(corners, pitch, offset, lattice);
     let (at_offset, triangles) = tetrahedra::surface(&grid, offset);
     let settled = settled(&grid, &at_offset, &triangles, offset);
     let body = TriMesh::new(settled, triangles).map_err(WrapError::NoBody)?;
@@ -121,7 +121,7 @@ fn advised(corners: &[grid::Corners], mut size: f64) -> f64 {
     loop {
         let digit = libm::pow(10.0, libm::floor(libm::log10(size)) - 1.0);
         let rounded = digit * (size / digit).ceil();
-        match Grid::shape(corners, 0.5 * rounded / OFFSET) {
+        match Grid::lattice(corners, 0.5 * rounded / OFFSET) {
             Some((nodes, _)) if nodes > MOST_NODES => size = rounded * 1.02,
             _ => return rounded,
         }

@@ -2,12 +2,13 @@
 
 use std::fmt;
 
+use langevin_rigid::linalg::vector::{norm, sub};
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::ExportError;
 use super::frames::Frames;
-use crate::motion::{Motion, Pose, arc, half_angle, line, nearer};
+use crate::track::{Pose, Track, arc, half_angle, line, nearer};
 use crate::trajectory::Trajectory;
 
 /// The largest distance and turn between a body of a trajectory and the same in an animation of it.
@@ -64,12 +65,12 @@ impl fmt::Display for Deviation {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Animation {
     /// One for each body.
-    pub(super) tracks: Vec<Track>,
+    pub(super) bodies: Vec<Keyframes>,
 }
 
 /// One body at the frames until its own end, where it stays.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Track {
+pub(super) struct Keyframes {
     /// Number of the body.
     pub(super) body: u32,
     /// Numbers of its frames, whole but for the last.
@@ -89,15 +90,14 @@ impl Animation {
         frames: Frames,
         rounded_time: impl Fn(f64) -> f64 + Sync,
     ) -> Result<Self, ExportError> {
-        let tracks: Result<Vec<Track>, ExportError> = trajectories
+        let bodies: Result<Vec<Keyframes>, ExportError> = trajectories
             .par_iter()
             .map(|trajectory| {
-                let motion =
-                    Motion::new(&trajectory.poses).map_err(|error| ExportError::Motion {
-                        body: trajectory.body,
-                        error,
-                    })?;
-                let mut numbers = frames.until(motion.end());
+                let track = Track::new(&trajectory.poses).map_err(|error| ExportError::Track {
+                    body: trajectory.body,
+                    error,
+                })?;
+                let mut numbers = frames.until(track.end());
                 let time = |number: &f64| rounded_time(frames.time(*number));
                 let mut times: Vec<f64> = numbers.iter().map(time).collect();
                 if let [.., before, end] = times[..]
@@ -107,10 +107,10 @@ impl Animation {
                     numbers.remove(numbers.len() - 2);
                     times.pop();
                 }
-                Ok(Track::new(trajectory.body, &motion, numbers, times))
+                Ok(Keyframes::new(trajectory.body, &track, numbers, times))
             })
             .collect();
-        Ok(Self { tracks: tracks? })
+        Ok(Self { bodies: bodies? })
     }
 
     /// The same with each number as a file has it.
@@ -119,11 +119,11 @@ impl Animation {
         position: impl Fn(f64) -> f64 + Sync,
         orientation: impl Fn(f64) -> f64 + Sync,
     ) -> Self {
-        self.tracks.par_iter_mut().for_each(|track| {
-            for x in track.positions.as_flattened_mut() {
+        self.bodies.par_iter_mut().for_each(|keyframes| {
+            for x in keyframes.positions.as_flattened_mut() {
                 *x = position(*x);
             }
-            for x in track.orientations.as_flattened_mut() {
+            for x in keyframes.orientations.as_flattened_mut() {
                 *x = orientation(*x);
             }
         });
@@ -132,17 +132,17 @@ impl Animation {
 
     /// How far it strays from the trajectories it was made of.
     pub(super) fn deviation(&self, trajectories: &[Trajectory]) -> Deviation {
-        self.tracks
+        self.bodies
             .par_iter()
             .zip(trajectories)
-            .map(|(track, trajectory)| track.deviation(&trajectory.poses))
+            .map(|(keyframes, trajectory)| keyframes.deviation(&trajectory.poses))
             .reduce(Deviation::default, Deviation::worse)
     }
 }
 
-impl Track {
-    fn new(body: u32, motion: &Motion<'_>, numbers: Vec<f64>, times: Vec<f64>) -> Self {
-        let poses: Vec<Pose> = times.iter().map(|time| motion.at(*time)).collect();
+impl Keyframes {
+    fn new(body: u32, track: &Track<'_>, numbers: Vec<f64>, times: Vec<f64>) -> Self {
+        let poses: Vec<Pose> = times.iter().map(|time| track.at(*time)).collect();
         let mut orientations: Vec<[f64; 4]> = Vec::with_capacity(poses.len());
         for pose in &poses {
             let last = orientations.last().copied();
@@ -181,17 +181,12 @@ impl Track {
             }
             let (position, orientation) = self.shown(passed, pose.time);
             worst = worst.worse(Deviation {
-                position: distance(position, pose.position),
+                position: norm(sub(position, pose.position)),
                 rotation: angle(orientation, pose.orientation),
             });
         }
         worst
     }
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let squares: f64 = a.iter().zip(&b).map(|(x, y)| (x - y) * (x - y)).sum();
-    squares.sqrt()
 }
 
 /// Angle of the turn from one orientation to another, the first of unit length (rad).
@@ -257,10 +252,10 @@ mod tests {
         short.poses.truncate(251);
         trajectories.push(short);
         let animation = animation(&trajectories, 10.0);
-        assert_eq!(animation.tracks[0].numbers.len(), 11);
-        let track = &animation.tracks[1];
-        assert_eq!(track.numbers, [0.0, 1.0, 2.0, 2.5]);
-        assert_eq!(track.positions[3], trajectories[1].poses[250].position);
+        assert_eq!(animation.bodies[0].numbers.len(), 11);
+        let keyframes = &animation.bodies[1];
+        assert_eq!(keyframes.numbers, [0.0, 1.0, 2.0, 2.5]);
+        assert_eq!(keyframes.positions[3], trajectories[1].poses[250].position);
         let whole = animation.deviation(&trajectories).position;
         assert!((whole / 0.012_262_5 - 1.0).abs() < 1e-9, "{whole}");
     }

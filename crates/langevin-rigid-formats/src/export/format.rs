@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use langevin_rigid::{UnknownName, choose};
+
 /// A file format of recordings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -45,6 +47,14 @@ impl Format {
         }
     }
 
+    /// Whether it has frames in place of every step.
+    pub fn is_animation(self) -> bool {
+        match self {
+            Self::Glb | Self::Usd => true,
+            Self::Csv | Self::Npz | Self::Parquet => false,
+        }
+    }
+
     /// Whether this build can write it.
     pub fn built(self) -> bool {
         self != Self::Parquet || cfg!(feature = "parquet")
@@ -58,20 +68,10 @@ impl fmt::Display for Format {
 }
 
 impl FromStr for Format {
-    type Err = UnknownFormat;
+    type Err = UnknownName;
 
-    fn from_str(name: &str) -> Result<Self, UnknownFormat> {
-        let named = |format: &Self| format.name() == name;
-        Self::ALL.into_iter().find(named).ok_or(UnknownFormat {
-            name: name.to_owned(),
-        })
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        let choices = Self::ALL.map(|format| (format.name(), format));
+        choose("format of a trajectory", name, choices)
     }
-}
-
-/// The name is that of no format.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{name}` is no format of a trajectory; the formats are csv, npz, parquet, glb, usd")]
-pub struct UnknownFormat {
-    /// What was given.
-    pub name: String,
 }

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use serde_json::{Value, json};
 
-use super::animation::{Animation, Track};
+use super::animation::{Animation, Keyframes};
 use super::frames::Frames;
 use super::parameters::{KEY, of_body, of_run};
 use super::shading::{COLOUR, corner_normals};
@@ -28,8 +28,8 @@ pub(super) fn glb(
 ) -> Result<(Vec<u8>, Deviation), ExportError> {
     let frames = Frames::of(recording.trajectories, fps)?;
     let animation = Animation::new(recording.trajectories, frames, single)?.rounded(single, single);
-    let apart = |track: &Track| track.times.windows(2).all(|pair| pair[0] < pair[1]);
-    if !animation.tracks.iter().all(apart) {
+    let apart = |keyframes: &Keyframes| keyframes.times.windows(2).all(|pair| pair[0] < pair[1]);
+    if !animation.bodies.iter().all(apart) {
         return Err(frames.too_many(SINGLES));
     }
     let deviation = animation.deviation(recording.trajectories);
@@ -42,10 +42,10 @@ pub(super) fn glb(
         "scene": 0,
         "scenes": [{
             "name": recording.conditions.scene,
-            "nodes": (0..animation.tracks.len()).collect::<Vec<_>>(),
+            "nodes": (0..animation.bodies.len()).collect::<Vec<_>>(),
             "extras": { KEY: of_run(recording, Up::Y, fps, deviation) },
         }],
-        "nodes": nodes(recording.conditions.scene, &animation.tracks),
+        "nodes": nodes(recording.conditions.scene, &animation.bodies),
         "meshes": [mesh],
         "materials": [{
             "name": "matt",
@@ -68,21 +68,21 @@ fn single(x: f64) -> f64 {
     f64::from(x as f32)
 }
 
-fn nodes(name: &str, tracks: &[Track]) -> Vec<Value> {
-    let node = |track: &Track| {
-        let name = match tracks.len() {
+fn nodes(name: &str, bodies: &[Keyframes]) -> Vec<Value> {
+    let node = |keyframes: &Keyframes| {
+        let name = match bodies.len() {
             1 => name.to_owned(),
-            _ => format!("{name}.{:04}", track.body),
+            _ => format!("{name}.{:04}", keyframes.body),
         };
         json!({
             "name": name,
             "mesh": 0,
-            "translation": track.positions[0],
-            "rotation": track.orientations[0],
-            "extras": { KEY: { "body": track.body } },
+            "translation": keyframes.positions[0],
+            "rotation": keyframes.orientations[0],
+            "extras": { KEY: { "body": keyframes.body } },
         })
     };
-    tracks.iter().map(node).collect()
+    bodies.iter().map(node).collect()
 }
 
 /// What the document points into.
@@ -115,11 +115,11 @@ impl File {
     fn animation(&mut self, name: &str, animation: &Animation) -> Value {
         let mut shared = HashMap::new();
         let (mut samplers, mut channels) = (Vec::new(), Vec::new());
-        for (node, track) in animation.tracks.iter().enumerate() {
-            let input = self.times(track, &mut shared);
+        for (node, keyframes) in animation.bodies.iter().enumerate() {
+            let input = self.times(keyframes, &mut shared);
             let outputs = [
-                ("translation", self.vectors(&track.positions, None)),
-                ("rotation", self.vectors(&track.orientations, None)),
+                ("translation", self.vectors(&keyframes.positions, None)),
+                ("rotation", self.vectors(&keyframes.orientations, None)),
             ];
             for (path, output) in outputs {
                 channels.push(json!({
@@ -134,10 +134,10 @@ impl File {
     }
 
     /// Bodies that end at the same frame share their times.
-    fn times(&mut self, track: &Track, shared: &mut HashMap<u64, usize>) -> usize {
-        let end = track.times[track.times.len() - 1].to_bits();
+    fn times(&mut self, keyframes: &Keyframes, shared: &mut HashMap<u64, usize>) -> usize {
+        let end = keyframes.times[keyframes.times.len() - 1].to_bits();
         *shared.entry(end).or_insert_with(|| {
-            let times: Vec<[f64; 1]> = track.times.iter().map(|t| [*t]).collect();
+            let times: Vec<[f64; 1]> = keyframes.times.iter().map(|t| [*t]).collect();
             let accessor = self.vectors(&times, None);
             self.bounds(accessor, &times);
             accessor

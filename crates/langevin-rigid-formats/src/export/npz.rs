@@ -8,7 +8,7 @@ use zip::CompressionMethod::Stored;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use crate::motion::Pose;
+use crate::track::Pose;
 use crate::trajectory::Trajectory;
 
 /// Bytes of an array beyond which the archive needs its 64-bit form.

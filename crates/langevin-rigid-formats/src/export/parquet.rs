@@ -12,7 +12,7 @@ use parquet::file::properties::{WriterProperties, WriterVersion};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{Type, TypePtr};
 
-use crate::motion::Pose;
+use crate::track::Pose;
 use crate::trajectory::{CSV_HEADER, Trajectory};
 
 /// One row for each pose of each body, one row group a body; `body` is an unsigned integer, the others are

@@ -1,6 +1,7 @@
 //! How a surface is shown: its colour, and normals that are smooth where it bends and sharp at its edges.
 
 use langevin_rigid::linalg::Vec3;
+use langevin_rigid::linalg::vector::{add, cross, dot, norm, sub};
 
 /// Colour of bodies, linear: that of dry leaves.
 pub(super) const COLOUR: [f64; 3] = [0.55, 0.42, 0.16];
@@ -19,7 +20,7 @@ pub(super) fn corner_normals(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[
         .map(|(corners, own)| {
             corners.map(|v| {
                 let near = around[v as usize].iter().map(|&t| areas[t as usize]);
-                let alike = near.filter(|other| cosine(own, other) > SMOOTH);
+                let alike = near.filter(|other| cosine(*own, *other) > SMOOTH);
                 unit(alike.fold([0.0; 3], add)).unwrap_or([0.0, 1.0, 0.0])
             })
         })
@@ -40,31 +41,15 @@ fn around(vertices: usize, triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
 /// Twice the area times the normal.
 fn area(vertices: &[Vec3], corners: &[u32; 3]) -> Vec3 {
     let [a, b, c] = corners.map(|v| vertices[v as usize]);
-    let (u, v): (Vec3, Vec3) = (
-        std::array::from_fn(|i| b[i] - a[i]),
-        std::array::from_fn(|i| c[i] - a[i]),
-    );
-    [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ]
+    cross(sub(b, a), sub(c, a))
 }
 
-fn add(a: Vec3, b: Vec3) -> Vec3 {
-    std::array::from_fn(|i| a[i] + b[i])
-}
-
-fn dot(a: &Vec3, b: &Vec3) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-fn cosine(a: &Vec3, b: &Vec3) -> f64 {
+fn cosine(a: Vec3, b: Vec3) -> f64 {
     dot(a, b) / (dot(a, a) * dot(b, b)).sqrt()
 }
 
 fn unit(a: Vec3) -> Option<Vec3> {
-    let length = dot(&a, &a).sqrt();
+    let length = norm(a);
     (length > 0.0).then(|| a.map(|x| x / length))
 }
 
@@ -91,7 +76,7 @@ mod tests {
         let normals = corner_normals(ball.vertices(), ball.triangles());
         for (corners, normals) in ball.triangles().iter().zip(&normals) {
             for (v, normal) in corners.iter().zip(normals) {
-                assert!(cosine(normal, &ball.vertices()[*v as usize]) > 0.9999);
+                assert!(cosine(*normal, ball.vertices()[*v as usize]) > 0.9999);
             }
         }
     }

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use langevin_rigid::linalg::vector::{cross, dot};
 use langevin_rigid::linalg::{quat_from_rotation_vector, rotate, rotate_back};
 use langevin_rigid::{Bake, State};
 use langevin_rigid_bake::body::{BodySpec, bake_body};
@@ -95,14 +96,9 @@ fn turned(a: [f64; 4], b: [f64; 4], part: f64) -> [f64; 4] {
     let product = |a: [f64; 4], b: [f64; 4]| -> [f64; 4] {
         let v = |q: [f64; 4]| [q[0], q[1], q[2]];
         let (u, w) = (v(a), v(b));
-        let cross = [
-            u[1] * w[2] - u[2] * w[1],
-            u[2] * w[0] - u[0] * w[2],
-            u[0] * w[1] - u[1] * w[0],
-        ];
-        let dot: f64 = u.iter().zip(&w).map(|(x, y)| x * y).sum();
-        let c = |i: usize| a[3] * w[i] + b[3] * u[i] + cross[i];
-        [c(0), c(1), c(2), a[3] * b[3] - dot]
+        let turned = cross(u, w);
+        let c = |i: usize| a[3] * w[i] + b[3] * u[i] + turned[i];
+        [c(0), c(1), c(2), a[3] * b[3] - dot(u, w)]
     };
     let mut between = product(b, [-a[0], -a[1], -a[2], a[3]]);
     if between[3] < 0.0 {

@@ -4,7 +4,9 @@ use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
-use crate::motion::Pose;
+use langevin_rigid::{UnknownName, choose};
+
+use crate::track::Pose;
 use crate::trajectory::Trajectory;
 
 /// Which axis of the world points up.
@@ -69,25 +71,12 @@ impl fmt::Display for Up {
 }
 
 impl FromStr for Up {
-    type Err = UnknownUp;
+    type Err = UnknownName;
 
-    fn from_str(name: &str) -> Result<Self, UnknownUp> {
-        match name {
-            "y" | "Y" => Ok(Self::Y),
-            "z" | "Z" => Ok(Self::Z),
-            _ => Err(UnknownUp {
-                name: name.to_owned(),
-            }),
-        }
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        let choices = [("y", Self::Y), ("z", Self::Z)];
+        choose("axis that may point up", &name.to_lowercase(), choices)
     }
-}
-
-/// The name is that of no axis that may point up.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{name}` cannot point up; choose y or z")]
-pub struct UnknownUp {
-    /// What was given.
-    pub name: String,
 }
 
 #[cfg(test)]

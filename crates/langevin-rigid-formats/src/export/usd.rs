@@ -8,7 +8,7 @@ use std::io;
 use rayon::prelude::*;
 use serde_json::{Map, Value};
 
-use super::animation::{Animation, Track};
+use super::animation::{Animation, Keyframes};
 use super::frames::Frames;
 use super::parameters::{KEY, of_body, of_run};
 use super::shading::{COLOUR, corner_normals};
@@ -57,8 +57,11 @@ impl<'a> Layer<'a> {
 
     pub(super) fn write(&self, out: &mut impl io::Write) -> io::Result<()> {
         write!(out, "{}{}", self.head(), self.shape())?;
-        for batch in self.animation.tracks.chunks(BATCH) {
-            let bodies: Vec<String> = batch.par_iter().map(|track| self.body(track)).collect();
+        for batch in self.animation.bodies.chunks(BATCH) {
+            let bodies: Vec<String> = batch
+                .par_iter()
+                .map(|keyframes| self.body(keyframes))
+                .collect();
             bodies
                 .iter()
                 .try_for_each(|body| out.write_all(body.as_bytes()))?;
@@ -69,7 +72,7 @@ impl<'a> Layer<'a> {
     /// The layer's metadata, and the beginning of the prim that holds all others.
     fn head(&self) -> String {
         let Frames { fps, start, .. } = self.frames;
-        let ends = self.animation.tracks.iter().flat_map(|t| t.numbers.last());
+        let ends = self.animation.bodies.iter().flat_map(|t| t.numbers.last());
         let first = fps * start;
         let last = first + ends.fold(0.0, |last: f64, end| last.max(*end));
         let run = of_run(self.recording, self.options.up, fps, self.deviation);
@@ -123,12 +126,12 @@ impl<'a> Layer<'a> {
         )
     }
 
-    fn body(&self, track: &Track) -> String {
-        let mut text = String::with_capacity(128 * track.positions.len());
+    fn body(&self, keyframes: &Keyframes) -> String {
+        let mut text = String::with_capacity(128 * keyframes.positions.len());
         let name = identifier(self.recording.conditions.scene);
         let (metres, turns) = (self.decimals as usize, TURN_DECIMALS as usize);
         let first = self.frames.fps * self.frames.start;
-        let codes = || track.numbers.iter().map(|number| first + number);
+        let codes = || keyframes.numbers.iter().map(|number| first + number);
         // Writing to a string cannot fail.
         let _ = write!(
             text,
@@ -138,15 +141,15 @@ impl<'a> Layer<'a> {
              instanceable = {several}\n        \
              references = </World/Shape>\n    )\n    {{\n        \
              double3 xformOp:translate.timeSamples = {{",
-            body = track.body,
+            body = keyframes.body,
             // Programs show an instance as a whole; one body alone is a mesh like any other.
-            several = self.animation.tracks.len() > 1,
+            several = self.animation.bodies.len() > 1,
         );
-        for (code, [x, y, z]) in codes().zip(&track.positions) {
+        for (code, [x, y, z]) in codes().zip(&keyframes.positions) {
             let _ = write!(text, "{code}:({x:.metres$},{y:.metres$},{z:.metres$}),");
         }
         text.push_str("}\n        quatd xformOp:orient.timeSamples = {");
-        for (code, [x, y, z, w]) in codes().zip(&track.orientations) {
+        for (code, [x, y, z, w]) in codes().zip(&keyframes.orientations) {
             let _ = write!(
                 text,
                 "{code}:({w:.turns$},{x:.turns$},{y:.turns$},{z:.turns$}),"

@@ -303,7 +303,7 @@ fn units_scale_to_metres() {
     let message = "yd".parse::<LengthUnit>().unwrap_err().to_string();
     assert_eq!(
         message,
-        "unknown unit of length `yd`: give `m`, `cm`, `mm`, `um`, `in` or `ft`"
+        "`yd` is no unit of length; choose one of m, cm, mm, um, in, ft"
     );
 }
 

@@ -2,6 +2,8 @@
 
 use std::str::FromStr;
 
+use langevin_rigid::{UnknownName, choose};
+
 /// The unit of length of a mesh file, by its symbol "m", "cm", "mm", "um", "in" or "ft"; "inch" is "in".
 ///
 /// ```
@@ -11,7 +13,7 @@ use std::str::FromStr;
 /// assert_eq!(unit.to_metres(8.3), 0.0083);
 /// assert_eq!("inch".parse::<LengthUnit>()?.to_metres(1.0), 0.0254);
 /// assert!("parsec".parse::<LengthUnit>().is_err());
-/// # Ok::<(), langevin_rigid_formats::mesh::UnknownUnit>(())
+/// # Ok::<(), langevin_rigid::UnknownName>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
@@ -31,6 +33,16 @@ pub enum LengthUnit {
     Ft,
 }
 
+/// All of them by their symbols.
+const UNITS: [(&str, LengthUnit); 6] = [
+    ("m", LengthUnit::M),
+    ("cm", LengthUnit::Cm),
+    ("mm", LengthUnit::Mm),
+    ("um", LengthUnit::Um),
+    ("in", LengthUnit::In),
+    ("ft", LengthUnit::Ft),
+];
+
 impl LengthUnit {
     /// A length in this unit, in metres.
     pub fn to_metres(self, length: f64) -> f64 {
@@ -48,20 +60,11 @@ impl LengthUnit {
 }
 
 impl FromStr for LengthUnit {
-    type Err = UnknownUnit;
+    type Err = UnknownName;
 
-    fn from_str(symbol: &str) -> Result<LengthUnit, UnknownUnit> {
-        match symbol {
-            "m" => Ok(LengthUnit::M),
-            "cm" => Ok(LengthUnit::Cm),
-            "mm" => Ok(LengthUnit::Mm),
-            "um" => Ok(LengthUnit::Um),
-            "in" | "inch" => Ok(LengthUnit::In),
-            "ft" => Ok(LengthUnit::Ft),
-            _ => Err(UnknownUnit {
-                symbol: symbol.to_owned(),
-            }),
-        }
+    fn from_str(symbol: &str) -> Result<LengthUnit, UnknownName> {
+        let symbol = if symbol == "inch" { "in" } else { symbol };
+        choose("unit of length", symbol, UNITS)
     }
 }
 
@@ -96,17 +99,10 @@ impl Default for FileUnit {
 impl FileUnit {
     /// A unit of so many metres.
     pub(super) fn of_metres(metres: f64) -> FileUnit {
-        let all = [
-            LengthUnit::M,
-            LengthUnit::Cm,
-            LengthUnit::Mm,
-            LengthUnit::Um,
-            LengthUnit::In,
-            LengthUnit::Ft,
-        ];
+        let mut all = UNITS.into_iter().map(|(_, unit)| unit);
         // Programs write six or seven digits.
         let is = |unit: &LengthUnit| (metres / unit.to_metres(1.0) - 1.0).abs() < 1e-6;
-        match all.into_iter().find(is) {
+        match all.find(is) {
             Some(unit) => FileUnit::Known(unit),
             None => FileUnit::Metres(metres),
         }
@@ -128,12 +124,4 @@ impl std::fmt::Display for FileUnit {
             FileUnit::Metres(metres) => write!(f, "units of {metres} m"),
         }
     }
-}
-
-/// The symbol is not that of a unit of length known here.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("unknown unit of length `{symbol}`: give `m`, `cm`, `mm`, `um`, `in` or `ft`")]
-pub struct UnknownUnit {
-    /// What was given.
-    pub symbol: String,
 }

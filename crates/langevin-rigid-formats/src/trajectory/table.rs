@@ -8,7 +8,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::Trajectory;
-use crate::motion::{FARTHEST, Pose};
+use crate::track::{FARTHEST, Pose};
 
 /// The columns of a trajectory table: world frame; metres, seconds, radians.
 pub const CSV_HEADER: &str = "body,t,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz";

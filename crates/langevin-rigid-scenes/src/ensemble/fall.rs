@@ -4,7 +4,7 @@ use langevin_rigid::linalg::Vec3;
 use langevin_rigid::{Batch, NoiseStream, State};
 use serde::{Deserialize, Serialize};
 
-use super::motion::MotionTracker;
+use super::motion_class::MotionTracker;
 use super::scatter::scattered_release;
 use crate::advance::{advance, is_carried};
 use crate::prepared::{Prepared, Release};

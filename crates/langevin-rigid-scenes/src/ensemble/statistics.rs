@@ -7,7 +7,7 @@ use langevin_rigid::linalg::Vec3;
 use serde::Serialize;
 
 use super::fall::{Fall, FallEnding, SAMPLES_PER_SECOND};
-use super::motion::Motion;
+use super::motion_class::MotionClass;
 
 /// Statistics of an ensemble's falls; falls that diverged are left out of all of them.
 ///
@@ -38,8 +38,8 @@ pub struct Statistics {
     pub landing_sigma_z: Option<f64>,
     /// Median horizontal distance of the landing points from the release point (m).
     pub median_landing_distance: Option<f64>,
-    /// Number of falls of each [`Motion`].
-    pub motions: BTreeMap<Motion, usize>,
+    /// Number of falls of each [`MotionClass`].
+    pub motions: BTreeMap<MotionClass, usize>,
 }
 
 impl Statistics {
@@ -49,7 +49,7 @@ impl Statistics {
             .iter()
             .filter(|f| !matches!(f.ending, FallEnding::Diverged(_)))
             .collect();
-        let mut motions: BTreeMap<Motion, usize> = Motion::ALL.map(|m| (m, 0)).into();
+        let mut motions: BTreeMap<MotionClass, usize> = MotionClass::ALL.map(|m| (m, 0)).into();
         for fall in &good {
             *motions.entry(fall.motion.motion()).or_default() += 1;
         }

@@ -201,19 +201,19 @@ fn motion(angle: impl Fn(f64) -> f64, heading: impl Fn(f64) -> f64) -> MotionTra
 fn motions_are_told_apart() {
     let fixed = |_| 0.4;
     let steady = motion(|t| 0.5 * (-t).exp(), fixed);
-    assert_eq!(steady.motion(), Motion::Steady);
+    assert_eq!(steady.motion(), MotionClass::Steady);
     // A lean that only goes around is no swing.
-    assert_eq!(motion(|_| 0.5, |t| t).motion(), Motion::Steady);
+    assert_eq!(motion(|_| 0.5, |t| t).motion(), MotionClass::Steady);
     let flutter = motion(|t| (std::f64::consts::PI * t).cos(), fixed);
     assert_eq!((flutter.turnovers(), flutter.swings()), (0, 20));
-    assert_eq!(flutter.motion(), Motion::Flutter);
+    assert_eq!(flutter.motion(), MotionClass::Flutter);
     let tumble = motion(|t| 0.3 * t, fixed);
     assert_eq!((tumble.turnovers(), tumble.net_turnovers()), (2, 2));
-    assert_eq!(tumble.motion(), Motion::Tumble);
+    assert_eq!(tumble.motion(), MotionClass::Tumble);
     // Past the vertical and back again: turnovers that cancel.
     let rocking = motion(|t| 2.0 * (std::f64::consts::PI * t / 5.0).sin(), fixed);
     assert_eq!((rocking.turnovers(), rocking.net_turnovers()), (8, 0));
-    assert_eq!(rocking.motion(), Motion::Chaotic);
+    assert_eq!(rocking.motion(), MotionClass::Chaotic);
     // Trembling about the vertical is no turnover.
     let edge = motion(
         |t| std::f64::consts::FRAC_PI_2 + 0.05 * (9.0 * t).sin(),

@@ -2,25 +2,25 @@
 
 use std::f64::consts::PI;
 
-use langevin_rigid_pictures::regimes::{
-    Axis, Kind, Legend, Mark, Panel, Reference, RegimeMap, Region, regime_map as draw,
+use langevin_rigid_pictures::kinds::{
+    Axis, Kind, KindMap, Legend, Mark, Panel, Reference, Region, kind_map,
 };
 use langevin_rigid_pictures::{Picture, PictureError};
 
 use super::plates::Plate;
 use super::published::{Published, UNCERTAINTY};
 use super::survey::{Point, REYNOLDS, inertia_ratios};
-use crate::ensemble::Motion;
+use crate::ensemble::MotionClass;
 
 /// The grid's outermost points are this factor inside the plot.
 const ROOM: f64 = 1.7;
 
-fn kind(motion: Motion) -> Kind<'static> {
+fn kind(motion: MotionClass) -> Kind<'static> {
     let (colour, corners, turn) = match motion {
-        Motion::Steady => ([120, 128, 140], 4, 0.25 * PI),
-        Motion::Flutter => ([38, 110, 190], 3, 0.0),
-        Motion::Chaotic => ([196, 52, 132], 4, 0.0),
-        Motion::Tumble => ([230, 130, 20], 40, 0.0),
+        MotionClass::Steady => ([120, 128, 140], 4, 0.25 * PI),
+        MotionClass::Flutter => ([38, 110, 190], 3, 0.0),
+        MotionClass::Chaotic => ([196, 52, 132], 4, 0.0),
+        MotionClass::Tumble => ([230, 130, 20], 40, 0.0),
     };
     Kind {
         name: motion.name(),
@@ -83,7 +83,7 @@ fn regions(published: &Published, reynolds: [f64; 2], inertia: [f64; 2]) -> Vec<
         area,
     };
     let onset = published.onset;
-    let mut regions = vec![region(Motion::Steady, [[slow, onset], inertia])];
+    let mut regions = vec![region(MotionClass::Steady, [[slow, onset], inertia])];
     let mut from = light;
     for boundary in published.boundaries {
         let area = [[onset, fast], [from, boundary.inertia_ratio]];
@@ -120,18 +120,18 @@ fn boundaries(published: &Published, reynolds: [f64; 2], inertia: [f64; 2]) -> V
 /// [`PictureError::Font`], of a damaged build alone.
 pub fn regime_map(points: &[Point], caption: &str) -> Result<Picture, PictureError> {
     let motions = [
-        Motion::Steady,
-        Motion::Flutter,
-        Motion::Chaotic,
-        Motion::Tumble,
+        MotionClass::Steady,
+        MotionClass::Flutter,
+        MotionClass::Chaotic,
+        MotionClass::Tumble,
     ];
-    draw(&RegimeMap {
+    kind_map(&KindMap {
         title: "Regimes of falling plates",
         caption,
         panels: Plate::ALL.map(|plate| panel(plate, points)),
         legend: Legend {
             kinds: motions.map(kind).into(),
-            sample: kind(Motion::Tumble),
+            sample: kind(MotionClass::Tumble),
             hollow: "hollow: two of three releases, or none alike",
             reference: "a plate of an experiment",
             ringed: "disagrees with the published regime",

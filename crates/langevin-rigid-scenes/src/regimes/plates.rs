@@ -222,6 +222,8 @@ fn prism(vertices: Vec<[f64; 3]>) -> Surface {
 
 #[cfg(test)]
 mod tests {
+    use langevin_rigid::linalg::vector::{cross, dot};
+
     use super::*;
 
     #[test]
@@ -262,15 +264,7 @@ mod tests {
                 .surface
                 .triangles
                 .iter()
-                .map(|t| {
-                    let (p, q, r) = (corner(t, 0), corner(t, 1), corner(t, 2));
-                    let cross = [
-                        q[1] * r[2] - q[2] * r[1],
-                        q[2] * r[0] - q[0] * r[2],
-                        q[0] * r[1] - q[1] * r[0],
-                    ];
-                    (p[0] * cross[0] + p[1] * cross[1] + p[2] * cross[2]) / 6.0
-                })
+                .map(|t| dot(corner(t, 0), cross(corner(t, 1), corner(t, 2))) / 6.0)
                 .sum();
             let error = volume / (share * body.volume) - 1.0;
             // The polygon is 0.16 % smaller than the circle.

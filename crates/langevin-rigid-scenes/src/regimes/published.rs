@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::plates::Plate;
-use crate::ensemble::Motion;
+use crate::ensemble::MotionClass;
 
 /// Grid points within this factor of a boundary, in Re or I*, are not compared: about what the
 /// measurements differ by among each other.
@@ -22,7 +22,7 @@ pub struct Published {
     /// Boundaries in I*, ascending.
     pub boundaries: &'static [Boundary],
     /// The regime above the last of them.
-    pub above: Motion,
+    pub above: MotionClass,
     /// Single measured plates.
     pub measured: &'static [Measured],
 }
@@ -33,7 +33,7 @@ pub struct Boundary {
     /// I* of the boundary.
     pub inertia_ratio: f64,
     /// The regime below it.
-    pub below: Motion,
+    pub below: MotionClass,
     /// Where it is from.
     pub source: &'static str,
 }
@@ -46,7 +46,7 @@ pub struct Measured {
     /// Its I*.
     pub inertia_ratio: f64,
     /// What it did.
-    pub motion: Motion,
+    pub motion: MotionClass,
     /// Where it is from.
     pub source: &'static str,
 }
@@ -62,16 +62,16 @@ const DISC: Published = Published {
     boundaries: &[
         Boundary {
             inertia_ratio: 0.01,
-            below: Motion::Flutter,
+            below: MotionClass::Flutter,
             source: FIELD,
         },
         Boundary {
             inertia_ratio: 0.04,
-            below: Motion::Chaotic,
+            below: MotionClass::Chaotic,
             source: FIELD,
         },
     ],
-    above: Motion::Tumble,
+    above: MotionClass::Tumble,
     measured: &[],
 };
 
@@ -86,22 +86,22 @@ const STRIP: Published = Published {
                    are hardly measured there",
     boundaries: &[Boundary {
         inertia_ratio: 0.67 * 0.67,
-        below: Motion::Flutter,
+        below: MotionClass::Flutter,
         source: "Belmonte, Eisenberg & Moses 1998, Phys. Rev. Lett. 81:345 (Fr = 0.67 +- 0.05)",
     }],
-    above: Motion::Tumble,
+    above: MotionClass::Tumble,
     // Density 2.70 times the thickness over the width, 1/14 and 1/5.
     measured: &[
         Measured {
             reynolds: 1000.0,
             inertia_ratio: 2.70 / 14.0,
-            motion: Motion::Flutter,
+            motion: MotionClass::Flutter,
             source: ANDERSEN,
         },
         Measured {
             reynolds: 1000.0,
             inertia_ratio: 2.70 / 5.0,
-            motion: Motion::Tumble,
+            motion: MotionClass::Tumble,
             source: ANDERSEN,
         },
     ],
@@ -119,16 +119,16 @@ impl Published {
     /// The published regime.
     ///
     /// ```
-    /// use langevin_rigid_scenes::ensemble::Motion;
+    /// use langevin_rigid_scenes::ensemble::MotionClass;
     /// use langevin_rigid_scenes::regimes::{Plate, Published};
     /// let discs = Published::of(Plate::Disc);
-    /// assert_eq!(discs.regime(50.0, 0.1), Motion::Steady);
-    /// assert_eq!(discs.regime(5000.0, 0.1), Motion::Tumble);
+    /// assert_eq!(discs.regime(50.0, 0.1), MotionClass::Steady);
+    /// assert_eq!(discs.regime(5000.0, 0.1), MotionClass::Tumble);
     /// assert!(discs.certain(5000.0, 0.1) && !discs.certain(5000.0, 0.05));
     /// ```
-    pub fn regime(&self, reynolds: f64, inertia_ratio: f64) -> Motion {
+    pub fn regime(&self, reynolds: f64, inertia_ratio: f64) -> MotionClass {
         if reynolds < self.onset {
-            return Motion::Steady;
+            return MotionClass::Steady;
         }
         let mut below = self.boundaries.iter();
         below

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::fall::{Case, Run};
 use super::plates::Plate;
 use super::published::Published;
-use crate::ensemble::{Motion, MotionTracker};
+use crate::ensemble::{MotionClass, MotionTracker};
 
 /// Tilts of the release from level, degrees.
 pub const TILTS: [f64; 3] = [5.0, 15.0, 40.0];
@@ -81,11 +81,11 @@ pub struct Point {
     /// I*.
     pub inertia_ratio: f64,
     /// The motion from each tilt of [`TILTS`].
-    pub motions: [Motion; TILTS.len()],
+    pub motions: [MotionClass; TILTS.len()],
     /// What most of them are; where no two agree, the most disordered.
-    pub regime: Motion,
+    pub regime: MotionClass,
     /// What experiments found.
-    pub published: Motion,
+    pub published: MotionClass,
     /// Whether the point is far enough from the published boundaries to be compared.
     pub compared: bool,
     /// Whether both regimes are the same.
@@ -93,7 +93,7 @@ pub struct Point {
 }
 
 impl Point {
-    fn new(case: &Case, motions: [Motion; TILTS.len()]) -> Self {
+    fn new(case: &Case, motions: [MotionClass; TILTS.len()]) -> Self {
         let published = Published::of(case.plate);
         let expected = published.regime(case.reynolds, case.inertia_ratio);
         let regime = majority(&motions);
@@ -110,21 +110,21 @@ impl Point {
     }
 }
 
-/// The most frequent motion; of equally frequent ones the most disordered, which `Motion` sorts last.
-fn majority(motions: &[Motion]) -> Motion {
-    let count = |m: &Motion| motions.iter().filter(|n| *n == m).count();
-    let best = Motion::ALL.into_iter().max_by_key(|m| (count(m), *m));
-    best.unwrap_or(Motion::Chaotic)
+/// The most frequent motion; of equally frequent ones the most disordered, which `MotionClass` sorts last.
+fn majority(motions: &[MotionClass]) -> MotionClass {
+    let count = |m: &MotionClass| motions.iter().filter(|n| *n == m).count();
+    let best = MotionClass::ALL.into_iter().max_by_key(|m| (count(m), *m));
+    best.unwrap_or(MotionClass::Chaotic)
 }
 
 /// The points of the grid all of whose releases came to an end.
 pub fn points(runs: &[Run]) -> Vec<Point> {
     let point = |runs: &[Run]| {
-        let motions: Vec<Motion> = runs
+        let motions: Vec<MotionClass> = runs
             .iter()
             .filter_map(|r| r.motion.as_ref().ok().map(MotionTracker::motion))
             .collect();
-        let motions = <[Motion; TILTS.len()]>::try_from(motions).ok()?;
+        let motions = <[MotionClass; TILTS.len()]>::try_from(motions).ok()?;
         Some(Point::new(&runs[0].case, motions))
     };
     runs.chunk_by(|a, b| a.case.is_of_one_point(&b.case))
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn the_majority_decides_and_disorder_where_there_is_none() {
-        use Motion::{Chaotic, Flutter, Steady, Tumble};
+        use MotionClass::{Chaotic, Flutter, Steady, Tumble};
         assert_eq!(majority(&[Steady, Tumble, Steady]), Steady);
         assert_eq!(majority(&[Steady, Tumble, Flutter]), Tumble);
         assert_eq!(majority(&[Chaotic, Steady, Flutter]), Chaotic);

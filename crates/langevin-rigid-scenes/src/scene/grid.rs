@@ -76,14 +76,11 @@ fn sampling(doc: &Document, raw: &RawTurbulence) -> Result<Sampling, SceneError>
     let Some(name) = &raw.sampling else {
         return Ok(Sampling::Fixed);
     };
-    match name.get_ref().as_str() {
-        "fixed" => Ok(Sampling::Fixed),
-        "passive-particle" => Ok(Sampling::PassiveParticle),
-        other => {
-            let message = format!("`{other}` is no `sampling`; choose fixed or passive-particle");
-            Err(doc.error(name.span(), message))
-        }
-    }
+    let choices = [
+        ("fixed", Sampling::Fixed),
+        ("passive-particle", Sampling::PassiveParticle),
+    ];
+    doc.choose("`sampling`", name, choices)
 }
 
 /// The section of a resolved scene.

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use langevin_rigid::choose;
 use serde_spanned::Spanned;
 
 use super::quantity::{Kind, Short};
@@ -138,6 +139,17 @@ impl Document<'_> {
         let (what, most) = (kind.named(key), Short(kind.most));
         let message = format!("{what} must be no longer than {most}, and is {length:e} long");
         Err(self.error(values.span(), message))
+    }
+
+    /// The choice of that name.
+    pub(super) fn choose<T>(
+        &self,
+        what: &'static str,
+        name: &Spanned<String>,
+        choices: impl IntoIterator<Item = (&'static str, T)>,
+    ) -> Result<T, SceneError> {
+        choose(what, name.get_ref(), choices)
+            .map_err(|unknown| self.error(name.span(), unknown.to_string()))
     }
 
     /// A name that parses into a choice.

@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use langevin_rigid::{UnknownName, choose};
+
 use super::{Geometry, Scene, SceneError};
 
 /// A scene that is part of the program.
@@ -66,14 +68,8 @@ const LONGEST: u64 = 1 << 20;
 #[non_exhaustive]
 pub enum FindError {
     /// Neither a built-in scene nor a file.
-    #[error(
-        "there is no built-in scene and no file `{name}`; built-in scenes are {}",
-        names()
-    )]
-    Unknown {
-        /// The name as given.
-        name: String,
-    },
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
     /// The file cannot be read.
     #[error("cannot read the scene `{file}`: {error}")]
     Read {
@@ -93,11 +89,6 @@ pub enum FindError {
     Scene(#[from] SceneError),
 }
 
-fn names() -> String {
-    let names: Vec<&str> = BUILT_IN.iter().map(|s| s.name).collect();
-    names.join(", ")
-}
-
 /// Opens the built-in scene of that name, or else the scene file at that path.
 ///
 /// A mesh path in a file becomes relative to the current folder.
@@ -105,14 +96,12 @@ fn names() -> String {
 /// # Errors
 /// See [`FindError`].
 pub fn find(name: &str) -> Result<Scene, FindError> {
-    if let Some(scene) = BUILT_IN.iter().find(|s| s.name == name) {
-        return Ok(scene.scene()?);
-    }
     let path = Path::new(name);
-    if !path.exists() {
-        return Err(FindError::Unknown {
-            name: name.to_owned(),
-        });
+    let built_in = BUILT_IN.iter().map(|scene| (scene.name, scene));
+    match choose("built-in scene or file", name, built_in) {
+        Ok(scene) => return Ok(scene.scene()?),
+        Err(unknown) if !path.exists() => return Err(unknown.into()),
+        Err(_) => {}
     }
     let text = read(path).map_err(|error| FindError::Read {
         file: name.to_owned(),
@@ -170,7 +159,7 @@ mod tests {
     fn an_unknown_name_lists_the_known_ones() {
         let message = find("paper-76").unwrap_err().to_string();
         assert!(
-            message.contains("paper-76") && message.contains("paper-75"),
+            message.contains("paper-76") && message.contains("did you mean `paper-75`?"),
             "{message}"
         );
     }

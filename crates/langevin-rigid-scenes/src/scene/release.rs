@@ -22,14 +22,14 @@ pub(super) fn resolve(doc: &Document, raw: &RawRelease) -> Result<State, SceneEr
     };
     let velocity = doc.vector(&raw.velocity, "velocity", SPEED)?;
     let spin = doc.vector(&raw.angular_velocity, "angular_velocity", SPIN)?;
-    match raw.frame.as_ref().map(|f| (f, f.get_ref().as_str())) {
-        None | Some((_, "world")) => state.set_world_velocities(velocity, spin),
-        Some((_, "body")) => (state.velocity, state.angular_velocity) = (velocity, spin),
-        Some((frame, other)) => {
-            let message =
-                format!("`{other}` is no `frame` of the velocities; choose world or body");
-            return Err(doc.error(frame.span(), message));
-        }
+    let of_body = raw.frame.as_ref().map_or(Ok(false), |frame| {
+        let choices = [("world", false), ("body", true)];
+        doc.choose("`frame` of the velocities", frame, choices)
+    })?;
+    if of_body {
+        (state.velocity, state.angular_velocity) = (velocity, spin);
+    } else {
+        state.set_world_velocities(velocity, spin);
     }
     Ok(state)
 }

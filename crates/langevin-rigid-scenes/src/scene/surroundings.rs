@@ -1,6 +1,6 @@
 //! What is around the body: fluid and tank.
 
-use langevin_rigid::{Fluid, Tank};
+use langevin_rigid::{Fluid, Tank, choose};
 use serde_spanned::Spanned;
 
 use super::place::{Document, SceneError};
@@ -9,17 +9,14 @@ use super::raw::{Given, RawFluid, RawTank};
 
 pub(super) fn fluid(doc: &Document, raw: &Spanned<RawFluid>) -> Result<Fluid, SceneError> {
     let given = raw.get_ref();
-    let preset = match given.preset.as_ref().map(|p| (p, p.get_ref().as_str())) {
-        None => None,
-        Some((_, "air")) => Some(Fluid::AIR),
-        Some((_, "water")) => Some(Fluid::WATER),
-        Some((p, other)) => {
-            let message = format!(
-                "`{other}` is no preset fluid; choose air or water, or give `density` and `viscosity`"
-            );
-            return Err(doc.error(p.span(), message));
-        }
-    };
+    let preset = given.preset.as_ref().map(|name| {
+        let choices = [("air", Fluid::AIR), ("water", Fluid::WATER)];
+        choose("preset fluid", name.get_ref(), choices).map_err(|unknown| {
+            let message = format!("{unknown}, or give `density` and `viscosity`");
+            doc.error(name.span(), message)
+        })
+    });
+    let preset = preset.transpose()?;
     let quantity = |value: &Given<f64>, of_preset: Option<f64>, key: &str, kind: Kind| {
         doc.given(value, key, kind)?.or(of_preset).ok_or_else(|| {
             let what = kind.named(key);

@@ -1,6 +1,7 @@
 //! Bodies with tensors in closed form.
 #![allow(dead_code, reason = "every test file uses its own share of these")]
 
+use langevin_rigid::linalg::vector::{norm, sub};
 use langevin_rigid::{Body, Separation, Surface, TurbulenceHistory};
 
 /// Lamb's integrals kappa_i of an ellipsoid, by the midpoint rule in u with L = c^2 (u/(1-u))^2.
@@ -105,10 +106,6 @@ pub(crate) fn frozen(k: f64, epsilon: f64) -> TurbulenceHistory {
     }
 }
 
-pub(crate) fn norm(a: [f64; 3]) -> f64 {
-    a.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    norm(std::array::from_fn(|i| a[i] - b[i]))
+    norm(sub(a, b))
 }

@@ -24,11 +24,11 @@ pub(super) struct Grid<'a> {
 }
 
 /// Lowest corner and numbers of nodes.
-pub(super) type Shape = ([f64; 3], [usize; 3]);
+pub(super) type Lattice = ([f64; 3], [usize; 3]);
 
 impl<'a> Grid<'a> {
     /// How many nodes it takes, and where; nothing without triangles.
-    pub(super) fn shape(corners: &[Corners], pitch: f64) -> Option<(f64, Shape)> {
+    pub(super) fn lattice(corners: &[Corners], pitch: f64) -> Option<(f64, Lattice)> {
         if corners.is_empty() {
             return None;
         }
@@ -42,7 +42,7 @@ impl<'a> Grid<'a> {
         corners: &'a [Corners],
         pitch: f64,
         offset: f64,
-        (low, counts): Shape,
+        (low, counts): Lattice,
     ) -> Grid<'a> {
         let nodes = counts.iter().product();
         let mut grid = Grid {

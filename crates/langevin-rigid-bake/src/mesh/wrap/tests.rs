@@ -127,7 +127,7 @@ fn sizes_that_are_none_and_too_fine_ones_are_refused() {
         .iter()
         .map(|t| t.map(|v| cube.vertices()[v as usize]))
         .collect();
-    let (nodes, _) = Grid::shape(&corners, 0.5 * advised / OFFSET).unwrap();
+    let (nodes, _) = Grid::lattice(&corners, 0.5 * advised / OFFSET).unwrap();
     assert!(nodes <= MOST_NODES && nodes > 0.7 * MOST_NODES, "{nodes:e}");
 }
 

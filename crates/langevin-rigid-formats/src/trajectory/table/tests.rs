@@ -152,8 +152,8 @@ proptest! {
             bytes[place] = byte;
         }
         for trajectory in read_csv(&String::from_utf8(bytes).unwrap()).unwrap_or_default() {
-            let motion = crate::motion::Motion::new(&trajectory.poses);
-            prop_assert!(motion.is_ok(), "{:?}", motion);
+            let track = crate::track::Track::new(&trajectory.poses);
+            prop_assert!(track.is_ok(), "{:?}", track);
             prop_assert!(trajectory.poses.is_sorted_by(|a, b| a.time < b.time));
             let rates = trajectory.velocities.iter().chain(&trajectory.angular_velocities);
             prop_assert!(rates.flatten().all(|x| x.is_finite()));

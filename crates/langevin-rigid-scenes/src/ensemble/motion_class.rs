@@ -1,5 +1,6 @@
 //! What kind of motion a fall is.
 
+use langevin_rigid::linalg::vector::cross;
 use langevin_rigid::linalg::{Vec3, eigen_symmetric, rotate};
 use langevin_rigid::{Body, State};
 use serde::{Deserialize, Serialize};
@@ -19,7 +20,7 @@ use serde::{Deserialize, Serialize};
 /// | chaotic | all others | |
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Motion {
+pub enum MotionClass {
     /// It neither swings to and fro nor turns over.
     Steady,
     /// It swings to and fro.
@@ -30,7 +31,7 @@ pub enum Motion {
     Chaotic,
 }
 
-impl Motion {
+impl MotionClass {
     /// Every motion.
     pub const ALL: [Self; 4] = [Self::Steady, Self::Flutter, Self::Tumble, Self::Chaotic];
 
@@ -60,7 +61,7 @@ const SWUNG: f64 = 0.087_155_742_747_658_17;
 ///
 /// ```
 /// use langevin_rigid::{State, linalg::quat_from_rotation_vector};
-/// use langevin_rigid_scenes::ensemble::{Motion, MotionTracker};
+/// use langevin_rigid_scenes::ensemble::{MotionClass, MotionTracker};
 /// let turned = |angle: f64| State {
 ///     orientation: quat_from_rotation_vector([angle, 0.0, 0.0]),
 ///     ..State::default()
@@ -69,7 +70,7 @@ const SWUNG: f64 = 0.087_155_742_747_658_17;
 /// for i in 0..100 {
 ///     tracker.follow(&turned(0.1 * f64::from(i)));
 /// }
-/// assert_eq!((tracker.turnovers(), tracker.motion()), (3, Motion::Tumble));
+/// assert_eq!((tracker.turnovers(), tracker.motion()), (3, MotionClass::Tumble));
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MotionTracker {
@@ -161,24 +162,16 @@ impl MotionTracker {
     }
 
     /// The motion so far.
-    pub fn motion(&self) -> Motion {
+    pub fn motion(&self) -> MotionClass {
         match (self.turnovers, self.swings) {
-            (0, 0 | 1) => Motion::Steady,
-            (0, _) => Motion::Flutter,
+            (0, 0 | 1) => MotionClass::Steady,
+            (0, _) => MotionClass::Flutter,
             (turns, swings) if self.net_turnovers() == turns && swings <= turns + 1 => {
-                Motion::Tumble
+                MotionClass::Tumble
             }
-            _ => Motion::Chaotic,
+            _ => MotionClass::Chaotic,
         }
     }
-}
-
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 /// Whether two directions are more than a quarter turn apart.

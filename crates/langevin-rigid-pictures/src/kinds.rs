@@ -1,6 +1,6 @@
-//! The map of regimes: marks of kinds over coloured regions, on two logarithmic axes.
+//! The map of kinds: marks of kinds over coloured regions, on two logarithmic axes.
 //!
-//! What it shows is given as numbers and words; [`regime_map`] draws it.
+//! What it shows is given as numbers and words; [`kind_map`] draws it.
 
 use std::f64::consts::PI;
 
@@ -10,9 +10,9 @@ use crate::numbers::short;
 use crate::palette::{FAINT_TEXT, FRAME, OUTLINE, PAGE, TEXT, mix};
 use crate::{Picture, PictureError};
 
-/// A map of regimes: two panels side by side over a legend.
+/// A map of kinds: two panels side by side over a legend.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RegimeMap<'a> {
+pub struct KindMap<'a> {
     /// Heading, one line.
     pub title: &'a str,
     /// What to know of it, one line.
@@ -23,7 +23,7 @@ pub struct RegimeMap<'a> {
     pub legend: Legend<'a>,
 }
 
-/// One kind of regime, as it looks.
+/// One kind, as it looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kind<'a> {
     /// Its name in the legend.
@@ -336,10 +336,10 @@ fn draw_legend(canvas: &mut Canvas, legend: &Legend<'_>) {
     legend_row(canvas, LEGEND[1], &second);
 }
 
-/// Draws a map of regimes.
+/// Draws a map of kinds.
 ///
 /// ```
-/// use langevin_rigid_pictures::regimes::*;
+/// use langevin_rigid_pictures::kinds::*;
 /// let kind = Kind { name: "laminar", colour: [38, 110, 190], corners: 4, turn: 0.0 };
 /// let range = [10.0, 1e5];
 /// let panel = Panel {
@@ -351,7 +351,7 @@ fn draw_legend(canvas: &mut Canvas, legend: &Legend<'_>) {
 ///     marks: vec![Mark { place: [500.0, 100.0], kind, hollow: false, ringed: false }],
 ///     references: vec![],
 /// };
-/// let map = RegimeMap {
+/// let map = KindMap {
 ///     title: "Flow in pipes",
 ///     caption: "",
 ///     panels: [panel.clone(), Panel { heading: "Rough pipes".to_owned(), ..panel }],
@@ -364,13 +364,13 @@ fn draw_legend(canvas: &mut Canvas, legend: &Legend<'_>) {
 ///         boundary: "onset of turbulence",
 ///     },
 /// };
-/// assert!(regime_map(&map)?.png()?.starts_with(b"\x89PNG"));
+/// assert!(kind_map(&map)?.png()?.starts_with(b"\x89PNG"));
 /// # Ok::<(), langevin_rigid_pictures::PictureError>(())
 /// ```
 ///
 /// # Errors
 /// [`PictureError::Font`], of a damaged build alone.
-pub fn regime_map(map: &RegimeMap<'_>) -> Result<Picture, PictureError> {
+pub fn kind_map(map: &KindMap<'_>) -> Result<Picture, PictureError> {
     let mut canvas = Canvas::new(SIZE)?;
     let title = TextStyle {
         weight: Weight::SemiBold,

@@ -20,10 +20,10 @@ pub struct Pose {
     pub orientation: [f64; 4],
 }
 
-/// Why poses are no motion.
+/// Why poses are no track.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum MotionError {
+pub enum TrackError {
     /// The trajectory is empty.
     #[error("the trajectory has no poses: give at least one")]
     NoPoses,
@@ -49,24 +49,24 @@ pub enum MotionError {
 
 /// At least one pose, all finite, in time order.
 #[derive(Clone, Copy, Debug)]
-pub struct Motion<'a> {
+pub struct Track<'a> {
     poses: &'a [Pose],
 }
 
-impl<'a> Motion<'a> {
-    /// The motion through `poses`.
+impl<'a> Track<'a> {
+    /// The track through `poses`.
     ///
     /// # Errors
-    /// [`MotionError`] names the first pose that has no place in it.
-    pub fn new(poses: &'a [Pose]) -> Result<Self, MotionError> {
+    /// [`TrackError`] names the first pose that has no place in it.
+    pub fn new(poses: &'a [Pose]) -> Result<Self, TrackError> {
         if poses.is_empty() {
-            return Err(MotionError::NoPoses);
+            return Err(TrackError::NoPoses);
         }
         for (index, pose) in poses.iter().enumerate() {
             check(index, pose)?;
         }
         match poses.windows(2).position(|w| w[1].time < w[0].time) {
-            Some(before) => Err(MotionError::TimeOrder { index: before + 1 }),
+            Some(before) => Err(TrackError::TimeOrder { index: before + 1 }),
             None => Ok(Self { poses }),
         }
     }
@@ -90,12 +90,12 @@ impl<'a> Motion<'a> {
     /// arc between its neighbours; held at the ends.
     ///
     /// ```
-    /// use langevin_rigid_formats::motion::{Motion, Pose};
+    /// use langevin_rigid_formats::track::{Pose, Track};
     /// let pose = |time, orientation| Pose { time, position: [time, 0.0, 0.0], orientation };
     /// let half_turn = [pose(0.0, [0.0, 0.0, 0.0, 1.0]), pose(1.0, [0.0, 1.0, 0.0, 0.0])];
-    /// let third = Motion::new(&half_turn)?.at(1.0 / 3.0);
+    /// let third = Track::new(&half_turn)?.at(1.0 / 3.0);
     /// assert!((third.orientation[1] - 0.5).abs() < 1e-15); // turned by 60 degrees
-    /// # Ok::<(), langevin_rigid_formats::motion::MotionError>(())
+    /// # Ok::<(), langevin_rigid_formats::track::TrackError>(())
     /// ```
     pub fn at(&self, time: f64) -> Pose {
         let after = self.poses.partition_point(|p| p.time <= time);
@@ -115,7 +115,7 @@ impl<'a> Motion<'a> {
     }
 }
 
-fn check(index: usize, pose: &Pose) -> Result<(), MotionError> {
+fn check(index: usize, pose: &Pose) -> Result<(), TrackError> {
     let in_range = |v: &f64| v.abs() <= FARTHEST;
     let norm2 = pose.orientation.iter().map(|q| q * q).sum::<f64>();
     if in_range(&pose.time)
@@ -125,7 +125,7 @@ fn check(index: usize, pose: &Pose) -> Result<(), MotionError> {
     {
         Ok(())
     } else {
-        Err(MotionError::BadPose { index, pose: *pose })
+        Err(TrackError::BadPose { index, pose: *pose })
     }
 }
 
@@ -187,7 +187,7 @@ mod tests {
             pose(0.0, 0.0, [0.0, 0.0, 0.0, 1.0]),
             pose(2.0, 4.0, [0.0, -0.5f64.sqrt(), 0.0, -0.5f64.sqrt()]),
         ];
-        let middle = Motion::new(&poses).unwrap().at(1.0);
+        let middle = Track::new(&poses).unwrap().at(1.0);
         assert_eq!(middle.position, [2.0, 0.0, 0.0]);
         let eighth = std::f64::consts::FRAC_PI_8;
         assert!((middle.orientation[1].abs() - eighth.sin()).abs() < 1e-15);
@@ -200,10 +200,10 @@ mod tests {
             pose(0.0, 0.0, [0.0, 0.0, 0.0, 1.0]),
             pose(1.0, 0.0, [0.8, 0.0, 0.0, 0.6]),
         ];
-        let motion = Motion::new(&wide).unwrap();
+        let track = Track::new(&wide).unwrap();
         let whole = libm::asin(0.8);
         for part in [0.0, 0.1, 0.37, 0.5, 0.9, 1.0] {
-            let found = libm::asin(motion.at(part).orientation[0]);
+            let found = libm::asin(track.at(part).orientation[0]);
             assert!((found - part * whole).abs() < 1e-14, "{found} at {part}");
         }
     }
@@ -215,8 +215,8 @@ mod tests {
             pose(1.0, 6.0, [0.0, 0.0, 0.0, 1.0]),
             pose(3.0, 7.0, [0.0, 0.0, 0.0, 1.0]),
         ];
-        let motion = Motion::new(&poses).unwrap();
-        assert_eq!(motion.at(0.0).position[0], 5.0);
-        assert_eq!(motion.at(9.0).position[0], 7.0);
+        let track = Track::new(&poses).unwrap();
+        assert_eq!(track.at(0.0).position[0], 5.0);
+        assert_eq!(track.at(9.0).position[0], 7.0);
     }
 }
