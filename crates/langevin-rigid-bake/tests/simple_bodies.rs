@@ -145,6 +145,8 @@ fn ellipsoids_are_as_baked() {
         ("slices' added mass", 0.02),
         ("slices' rotation", 0.03),
         ("slices' drag areas", 0.02),
+        // A thickness is the width of a few facets.
+        ("slices' extents", 0.03),
     ]);
 }
 

@@ -5,7 +5,7 @@
 //! its time. If the seed dives, its slices do not see their own velocities.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use langevin_rigid::linalg::rotate;
+use langevin_rigid::linalg::{eigen_symmetric, rotate};
 use langevin_rigid::{Bake, NoiseStream, State};
 use langevin_rigid_scenes::scene::{Scene, find};
 use langevin_rigid_scenes::{advance::advance, baking, prepared::Release};
@@ -50,37 +50,31 @@ fn a_maple_seed_spins_itself_down() {
         let states = fall(&scene, &bake, seed, 4.0);
         let turns = late(&states, |s| s.world_angular_velocity()[1]) / std::f64::consts::TAU;
         assert!(
-            (18.0..30.0).contains(&turns),
+            (10.0..22.0).contains(&turns),
             "seed {seed}: {turns} turns a second"
         );
         let speed = sinking(&states);
-        assert!((0.7..1.6).contains(&speed), "seed {seed}: {speed} m/s");
+        assert!((0.9..1.5).contains(&speed), "seed {seed}: {speed} m/s");
         // The span points from the nut, which is inside, up and out.
         let cone = late(&states, |s| {
             rotate(s.orientation, [1.0, 0.0, 0.0])[1].asin()
         });
         let degrees = cone.to_degrees();
         assert!(
-            (5.0..40.0).contains(&degrees),
+            (15.0..25.0).contains(&degrees),
             "seed {seed}: cone of {degrees} degrees"
         );
     }
 }
 
 #[test]
-fn without_its_slices_the_seed_turns_but_now_and_then() {
-    let (scene, mut bake) = baked("maple-seed");
-    bake.body.slices.clear();
-    let states = fall(&scene, &bake, 0, 4.0);
-    let turns = late(&states, |s| s.world_angular_velocity()[1]) / std::f64::consts::TAU;
-    assert!(turns.abs() < 10.0, "{turns} turns a second");
-}
-
-#[test]
 fn leaves_and_feathers_wander_and_turn_on_their_way() {
-    // One fall among ten may be fast or slow by half: the middle one is the measure.
-    for (name, slow, fast) in [("leaf", 0.85, 1.3), ("feather", 0.4, 0.75)] {
+    // One fall among ten may be fast or slow by half: the middle one is the measure, beside the speed of a steady
+    // fall broadside.
+    for name in ["leaf", "feather"] {
         let (scene, bake) = baked(name);
+        let ([.., broadside], _) = eigen_symmetric(&bake.body.separation.drag_area);
+        let steady = (2.0 * bake.body.mass * 9.80665 / (scene.fluid.density * broadside)).sqrt();
         let mut speeds = Vec::new();
         let mut apart = 0.0f64;
         let mut first: Option<State> = None;
@@ -92,11 +86,16 @@ fn leaves_and_feathers_wander_and_turn_on_their_way() {
             assert!(least < 0.7, "{name} {seed} stays level: {least}");
             let end = *states.last().unwrap();
             let other = first.get_or_insert(end);
-            apart = apart.max((end.position[0] - other.position[0]).abs());
+            let way = |axis: usize| end.position[axis] - other.position[axis];
+            apart = apart.max(way(0).hypot(way(2)));
         }
         speeds.sort_by(f64::total_cmp);
         let middle = speeds[5];
-        assert!((slow..fast).contains(&middle), "{name}: {middle} m/s");
+        let ratio = middle / steady;
+        assert!(
+            (0.75..1.5).contains(&ratio),
+            "{name}: {middle} m/s, {ratio}"
+        );
         let (least, most) = (speeds[0] / middle, speeds[9] / middle);
         assert!(least > 0.3 && most < 3.0, "{name}: {speeds:?} m/s");
         assert!(apart > 0.1, "{name}: all seeds within {apart} m");

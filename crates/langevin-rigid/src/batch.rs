@@ -109,6 +109,7 @@ pub struct Pack<P = f64> {
     position: [[P; PACK]; 3],
     orientation: [[P; PACK]; 4],
     velocity: [[P; PACK]; 6],
+    fluctuation: [[P; PACK]; 6],
 }
 
 /// The input of a body from its number and its state.
@@ -236,6 +237,7 @@ impl<P: Precision> Pack<P> {
             position: [[P::ZERO; PACK]; 3],
             orientation: [[P::ZERO; PACK]; 4],
             velocity: [[P::ZERO; PACK]; 6],
+            fluctuation: [[P::ZERO; PACK]; 6],
         };
         // Places not taken step too: they rest.
         for place in 0..PACK {
@@ -258,6 +260,7 @@ impl<P: Precision> Pack<P> {
             orientation: self.orientation.map(|x| x[place].to_f64()),
             velocity: [velocity[0], velocity[1], velocity[2]],
             angular_velocity: [velocity[3], velocity[4], velocity[5]],
+            fluctuation: self.fluctuation.map(|x| x[place].to_f64()),
         }
     }
 
@@ -269,6 +272,7 @@ impl<P: Precision> Pack<P> {
         let [v, omega] = [state.velocity, state.angular_velocity];
         let xi = join(v, omega);
         put(&mut self.velocity, place, &xi);
+        put(&mut self.fluctuation, place, &state.fluctuation);
     }
 
     /// One body after the other, in double precision.
@@ -380,6 +384,7 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Symmetry>(
         position: load_columns(simd, &pack.position, first),
         orientation: load_columns(simd, &pack.orientation, first),
         xi: load_columns(simd, &pack.velocity, first),
+        fluctuation: load_columns(simd, &pack.fluctuation, first),
     };
     let noise = Noise {
         seed: pack.seed,
@@ -407,6 +412,7 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Symmetry>(
     store_columns(&mut pack.position, first, &after.position);
     store_columns(&mut pack.orientation, first, &after.orientation);
     store_columns(&mut pack.velocity, first, &after.xi);
+    store_columns(&mut pack.fluctuation, first, &after.fluctuation);
     for place in lanes.clone() {
         pack.time[place] += dt;
         pack.step[place] = pack.step[place].wrapping_add(1);

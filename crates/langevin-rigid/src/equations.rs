@@ -1,5 +1,6 @@
 //! One step of the default integrator, for one body or for lanes of bodies: Algorithm 2.
 
+use crate::ambient::Ambient;
 use crate::input::{Forcing, rotation_rate};
 use crate::kirchhoff::{Kirchhoff, Motion, Statics};
 use crate::langevin::Langevin;
@@ -11,7 +12,7 @@ use crate::modes::Modes;
 use crate::noise::Counter;
 use crate::pace::{MOST_PARTS, Pace, Substep};
 use crate::real::Real;
-use crate::separated::Closure;
+use crate::separated::{Closure, Eddies};
 use crate::symmetry::{General, Symmetry, Tensor};
 
 /// Speed (m/s) and spin (rad/s) beyond which a run has diverged: no light body in a fluid comes near.
@@ -33,14 +34,14 @@ pub(crate) enum FluidLoads<F: Symmetry = General, R: Real = f64> {
     None,
     /// The Langevin loads, by Strang's splitting.
     Langevin(Langevin<F, R>),
-    /// The closure for separated flow, and the turbulence that the body sheds as noise.
+    /// The closure for separated flow, in the turbulence that the body sheds.
     Separated(Separated<F, R>),
 }
 
 #[derive(Debug, Clone)]
 pub(crate) struct Separated<F: Symmetry = General, R: Real = f64> {
     pub(crate) closure: Closure<F, R>,
-    pub(crate) noise: Langevin<F, R>,
+    pub(crate) eddies: Eddies<F, R>,
 }
 
 /// What a step made.
@@ -70,7 +71,7 @@ impl Equations {
                 FluidLoads::Langevin(langevin) => FluidLoads::Langevin(langevin.lift(like, total)),
                 FluidLoads::Separated(separated) => FluidLoads::Separated(Separated {
                     closure: separated.closure.lift(like),
-                    noise: separated.noise.lift(like, total),
+                    eddies: separated.eddies.lift(like),
                 }),
             },
             pace: self.pace.lift(like),
@@ -241,7 +242,7 @@ impl<F: Symmetry, R: Real> Equations<F, R> {
     /// The motion of the fluid as a spin of the body, body frame, where it turns.
     #[inline(always)]
     fn fluid_spin(&self, statics: &Statics<R>, orientation: Quat<R>) -> Option<Vec6<R>> {
-        let gradient = statics.gradient?;
+        let gradient = statics.ambient.gradient?;
         let turning = in_the_body(orientation, rotation_rate(&gradient));
         Some(join([turning[0].of(0.0); 3], turning))
     }
@@ -257,37 +258,39 @@ impl<F: Symmetry, R: Real> Equations<F, R> {
         statics: &Statics<R>,
     ) -> Motion<R> {
         let (h, closure) = (part.h, &separated.closure);
-        let mut motion = *before;
-        let mut lost = h.of(0.0);
+        let mut before = *before;
+        let mut ambient = Ambient {
+            fluctuation: separated.eddies.step(&mut before, time, h, normals),
+            ..statics.ambient
+        };
+        if let Some(seen) = &mut ambient.fluctuation {
+            // A motion that is not resolved would feed on turbulence of its own.
+            let none = [h.of(0.0); 6];
+            *seen = choose(part.rough, &none, seen);
+        }
+        let mut statics = *statics;
+        statics.ambient = ambient;
+        let mut motion = before;
         if !R::ALONE || R::any(!part.stiff) {
-            lost = self.kirchhoff.step(
+            self.kirchhoff.step(
                 &mut motion,
                 h,
-                statics,
+                &statics,
                 #[inline(always)]
-                |xi, gradient| closure.load(xi, gradient),
+                |xi, ambient| closure.load(xi, ambient),
             );
         }
         if R::ALONE && R::any(part.stiff) {
-            let mut resisted = *before;
-            let taken = self.kirchhoff.step_resisted(
+            let mut resisted = before;
+            self.kirchhoff.step_resisted(
                 &mut resisted,
                 h,
-                statics,
+                &statics,
                 #[inline(always)]
-                |xi, gradient| closure.resisted_load(xi, gradient),
+                |xi, ambient| closure.resisted_load(xi, ambient),
             );
             motion = chosen(part.stiff, &resisted, &motion);
-            lost = R::choose(part.stiff, taken, lost);
         }
-        let kick = separated
-            .noise
-            .kick(&before.xi, time, h, Some(lost), normals);
-        motion.xi = each(
-            h,
-            #[inline(always)]
-            |i| motion.xi[i] + kick[i],
-        );
         motion
     }
 
@@ -395,5 +398,6 @@ fn chosen<R: Real>(mask: R::Mask, yes: &Motion<R>, no: &Motion<R>) -> Motion<R> 
         position: choose(mask, &yes.position, &no.position),
         orientation: choose(mask, &yes.orientation, &no.orientation),
         xi: choose(mask, &yes.xi, &no.xi),
+        fluctuation: choose(mask, &yes.fluctuation, &no.fluctuation),
     }
 }

@@ -11,6 +11,7 @@
 //! loads alone. [`Kirchhoff::step`] integrates those impulses, so they stay exact to rounding where
 //! nothing acts.
 
+use crate::ambient::Ambient;
 use crate::body::Body;
 use crate::fluid::Fluid;
 use crate::input::Forcing;
@@ -29,6 +30,8 @@ pub(crate) struct Motion<R = f64> {
     pub(crate) orientation: Quat<R>,
     /// (v - R^T u, omega), body frame.
     pub(crate) xi: Vec6<R>,
+    /// See [`State::fluctuation`](crate::State::fluctuation).
+    pub(crate) fluctuation: Vec6<R>,
 }
 
 /// The total tensor and the static loads of a body in a fluid.
@@ -62,13 +65,13 @@ pub(crate) struct Statics<R = f64> {
     buoyancy: Vec3<R>,
     /// Torque from outside (N m).
     torque: Option<Vec3<R>>,
-    /// Gradient of the fluid's velocity (1/s).
-    pub(crate) gradient: Option<Mat3<R>>,
+    /// Gradient and fluctuation of the fluid's velocity.
+    pub(crate) ambient: Ambient<R>,
     /// Bound on how fast all this changes the root of twice the energy (kg^(1/2) m/s^2).
     push: R,
 }
 
-/// A load that depends on the motion, and the power with which the fluid's own rotation and strain feed the body
+/// A load that depends on the motion, and the power with which the gradient of the fluid's velocity feeds the body
 /// through it (W).
 #[derive(Clone, Copy)]
 pub(crate) struct Load<R = f64> {
@@ -183,7 +186,10 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
                 weight: self.weight,
                 buoyancy: self.buoyancy,
                 torque: None,
-                gradient: None,
+                ambient: Ambient {
+                    gradient: None,
+                    fluctuation: None,
+                },
                 push: self.push,
             };
         };
@@ -199,7 +205,10 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
             ),
             buoyancy: add_scaled(self.buoyancy, self.displaced, forcing.acceleration),
             torque: Some(forcing.torque),
-            gradient: forcing.gradient,
+            ambient: Ambient {
+                gradient: forcing.gradient,
+                fluctuation: None,
+            },
             push: self.push
                 + pushed * self.mobility.sqrt()
                 + turned * self.rotational_mobility.sqrt(),
@@ -253,7 +262,7 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         motion: &mut Motion<R>,
         h: R,
         statics: &Statics<R>,
-        load: impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<(Load<R>, Mat6<R>)>,
+        load: impl Fn(&Vec6<R>, &Ambient<R>) -> Option<(Load<R>, Mat6<R>)>,
     ) -> R {
         let start = *motion;
         let (momentum, total) = (self.total.times(&start.xi), self.total.matrix());
@@ -273,11 +282,8 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
             if let Some(torque) = statics.torque {
                 fed = dot(transposed_mat_vec(&matrix, torque), split(&from.xi).1);
             }
-            let gradient = statics.gradient.map(
-                #[inline(always)]
-                |g| seen_from(&matrix, &g),
-            );
-            if let Some((moving, resisted)) = load(&from.xi, gradient.as_ref()) {
+            let ambient = statics.ambient.seen_from(&matrix);
+            if let Some((moving, resisted)) = load(&from.xi, &ambient) {
                 fed = fed + moving.fed;
                 for i in 0..6 {
                     rate[i] = rate[i] + h * moving.force[i];
@@ -330,7 +336,15 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         let had = dot6(before, &self.inverse.times(before));
         let has = dot6(after, &self.inverse.times(after));
         let given = (fed + fed).max(zero);
-        let most = (had.max(zero) + given).sqrt() + statics.push * h;
+        let mut carried = had.max(zero);
+        // Turbulence takes a body along, no faster than itself; what it feeds a faster one, drag has taken.
+        if statics.ambient.fluctuation.is_some() {
+            let ambient = statics.ambient.seen_from(&matrix_of(start.orientation));
+            if let Some(turbulence) = &ambient.fluctuation {
+                carried = carried.max(dot6(turbulence, &self.total.times(turbulence)));
+            }
+        }
+        let most = (carried + given).sqrt() + statics.push * h;
         let furthest = most * h * self.mobility.sqrt();
         let displacement = sub(end.position, start.position);
         let distance = norm(displacement);
@@ -341,18 +355,30 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
             end.position[i] = R::choose(too_far, reached, end.position[i]);
         }
 
-        let mut work = share * dot(statics.weight, displacement) + fed;
+        let (mut lifted, mut work) = (share * dot(statics.weight, displacement), fed);
         if !F::CENTRED {
             let arm = |orientation| mat_vec(&matrix_of(orientation), self.centre_of_buoyancy);
             let moved = sub(arm(end.orientation), arm(start.orientation));
             work = work + dot(statics.buoyancy, moved);
         }
-        let allowed = (had + (work + work)).max(zero).min(most * most);
+        let half = h.of(0.5);
+        // No body climbs higher than its energy takes it.
+        let too_high = lifted.less(zero) & (half * carried + (lifted + work)).less(zero);
+        if R::any(too_high) {
+            let share = ((half * carried + work) / -lifted).max(zero);
+            for i in 0..3 {
+                let reached = start.position[i] + share * (end.position[i] - start.position[i]);
+                end.position[i] = R::choose(too_high, reached, end.position[i]);
+            }
+            lifted = R::choose(too_high, share * lifted, lifted);
+        }
+        let work = lifted + work;
+        let allowed = (carried + (work + work)).max(zero).min(most * most);
         // Rounding, and what a sound step errs by.
         let tolerated = allowed + h.of(1e-6) * (had + most * most * h.of(1e-3));
         let gained = tolerated.less(has);
         let share = R::choose(gained, (tolerated / has).sqrt(), one);
-        let lost = (allowed - has).max(zero) * h.of(0.5);
+        let lost = (allowed - has).max(zero) * half;
         (share, lost)
     }
 
@@ -367,7 +393,7 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         motion: &mut Motion<R>,
         h: R,
         statics: &Statics<R>,
-        load: impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<Load<R>>,
+        load: impl Fn(&Vec6<R>, &Ambient<R>) -> Option<Load<R>>,
     ) -> R {
         let momentum = self.total.times(&motion.xi);
         let (momentum, lost) = self.step_momentum(motion, &momentum, h, statics, load);
@@ -403,7 +429,7 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         momentum: &Vec6<R>,
         h: R,
         statics: &Statics<R>,
-        load: impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<Load<R>>,
+        load: impl Fn(&Vec6<R>, &Ambient<R>) -> Option<Load<R>>,
     ) -> (Vec6<R>, R) {
         let start = matrix_of(motion.orientation);
         let loads = statics.seen_from(&start);
@@ -437,7 +463,7 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         &self,
         xi: &Vec6<R>,
         statics: &Statics<R>,
-        load: &impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<Load<R>>,
+        load: &impl Fn(&Vec6<R>, &Ambient<R>) -> Option<Load<R>>,
     ) -> Increment<R> {
         let (v, omega) = split(xi);
         let mut linear = statics.weight;
@@ -450,11 +476,11 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
             angular = add(angular, torque);
             work = dot(torque, omega);
         }
-        if let Some(load) = load(xi, statics.gradient.as_ref()) {
+        if let Some(load) = load(xi, &statics.ambient) {
             let (force, couple) = split(&load.force);
             linear = add(linear, force);
             angular = add(angular, couple);
-            if statics.gradient.is_some() {
+            if statics.ambient.gradient.is_some() {
                 work = work + load.fed;
             }
         }
@@ -472,7 +498,7 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         &self,
         y: &Increment<R>,
         statics: &Statics<R>,
-        load: &impl Fn(&Vec6<R>, Option<&Mat3<R>>) -> Option<Load<R>>,
+        load: &impl Fn(&Vec6<R>, &Ambient<R>) -> Option<Load<R>>,
     ) -> Increment<R> {
         let turned = matrix_of(turn(y.theta));
         let xi = self.inverse.times(&momentum_after(&turned, y));
@@ -488,17 +514,14 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
             angular = add(angular, torque);
             work = dot(torque, mat_vec(&turned, omega));
         }
-        let gradient = statics.gradient.map(
-            #[inline(always)]
-            |g| seen_from(&turned, &g),
-        );
-        if let Some(load) = load(&xi, gradient.as_ref()) {
+        let ambient = statics.ambient.seen_from(&turned);
+        if let Some(load) = load(&xi, &ambient) {
             let (force, couple) = split(&load.force);
             let force = mat_vec(&turned, force);
             linear = add(linear, force);
             let couple = add(mat_vec(&turned, couple), cross(y.displacement, force));
             angular = add(angular, couple);
-            if statics.gradient.is_some() {
+            if statics.ambient.gradient.is_some() {
                 work = work + load.fed;
             }
         }
@@ -523,10 +546,7 @@ impl<R: Real> Statics<R> {
                 #[inline(always)]
                 |torque| transposed_mat_vec(matrix, torque),
             ),
-            gradient: self.gradient.map(
-                #[inline(always)]
-                |gradient| seen_from(matrix, &gradient),
-            ),
+            ambient: self.ambient.seen_from(matrix),
             push: self.push,
         }
     }

@@ -62,6 +62,7 @@
 //!   format lets them: with `serde_json` by its feature `float_roundtrip`. JSON has no number that is not finite;
 //!   `serde_json` writes `null` and then refuses to read it. A body that was read is checked by [`Stepper::new`].
 
+mod ambient;
 mod bake;
 mod batch;
 mod body;

@@ -1,8 +1,9 @@
 //! The loads on a body by cause.
 
+use crate::ambient::Ambient;
 use crate::equations::FluidLoads;
 use crate::input::{Forcing, Input, Wrench};
-use crate::kirchhoff::{Motion, seen_from};
+use crate::kirchhoff::Motion;
 use crate::langevin::Langevin;
 use crate::linalg::{
     Quat, Vec3, Vec6, add, cross, join, matrix_of, mul, rotate, rotate_back, scale, split, sub,
@@ -161,9 +162,12 @@ impl Stepper {
             (None, FluidLoads::Langevin(langevin)) => loads.turbulence = relaxing(langevin),
             (None, FluidLoads::Separated(separated)) => {
                 let matrix = matrix_of(motion.orientation);
-                let gradient = forcing.and_then(|forcing| forcing.gradient);
-                let gradient = gradient.map(|gradient| seen_from(&matrix, &gradient));
-                let causes = separated.closure.causes(&motion.xi, gradient.as_ref());
+                let ambient = Ambient {
+                    gradient: forcing.and_then(|forcing| forcing.gradient),
+                    fluctuation: separated.eddies.now(motion, time),
+                };
+                let ambient = ambient.seen_from(&matrix);
+                let causes = separated.closure.causes(&motion.xi, &ambient);
                 loads.drag = world(&causes.drag);
                 loads.normal_force = world(&causes.normal_force);
                 loads.rotational_lift = world(&causes.rotational_lift);

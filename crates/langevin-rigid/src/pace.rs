@@ -6,6 +6,7 @@
 //! directions all around it. Those of the resistances, which may be as stiff as they like (a thin leaf in
 //! honey), are kept apart from the others.
 
+use crate::ambient::STILL;
 use crate::kirchhoff::Kirchhoff;
 use crate::linalg::{
     Mat3, Mat6, Vec3, Vec6, invert_spd, join, mul, norm, product, scale, split, transpose,
@@ -55,6 +56,8 @@ pub(crate) struct Substep<R: Real> {
     pub(crate) h: R,
     /// Whether the resistances are too stiff for the explicit scheme.
     pub(crate) stiff: R::Mask,
+    /// Whether the motion wants a shorter one: it is taken stably, not accurately.
+    pub(crate) rough: R::Mask,
 }
 
 impl Pace {
@@ -116,6 +119,7 @@ impl<R: Real> Pace<R> {
             return Substep {
                 h: left,
                 stiff: long,
+                rough: long,
             };
         }
         let others = free.max(explicit / left);
@@ -128,6 +132,7 @@ impl<R: Real> Pace<R> {
         Substep {
             h: R::choose(long, wanted.max(least).min(left), left),
             stiff,
+            rough: long & wanted.less(least),
         }
     }
 }
@@ -213,8 +218,8 @@ impl Probe<'_> {
             return [[0.0; 6]; 6];
         };
         let (still, moving) = (
-            closure.resistance(&[0.0; 6], None),
-            closure.resistance(xi, None),
+            closure.resistance(&[0.0; 6], &STILL),
+            closure.resistance(xi, &STILL),
         );
         let twice =
             std::array::from_fn(|i| std::array::from_fn(|j| 2.0 * moving[i][j] - still[i][j]));
@@ -241,7 +246,7 @@ impl Probe<'_> {
         let mut rate = self.kirchhoff.momentum_rate(xi);
         if let Some((load, _)) = self
             .closure
-            .and_then(|closure| closure.resisted_load(xi, None))
+            .and_then(|closure| closure.resisted_load(xi, &STILL))
         {
             rate = std::array::from_fn(|i| rate[i] + load.force[i]);
         }

@@ -45,5 +45,6 @@ fn advance(m: &Motion, h: f64, k: &Rate) -> Motion {
         position: add_scaled(m.position, h, k.velocity),
         orientation: std::array::from_fn(|i| m.orientation[i] + h * k.orientation[i]),
         xi: std::array::from_fn(|i| m.xi[i] + h * k.acceleration[i]),
+        fluctuation: m.fluctuation,
     }
 }

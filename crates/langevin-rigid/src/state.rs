@@ -1,6 +1,6 @@
 //! The state of one body.
 
-use crate::linalg::{Quat, Vec3, add, cross, rotate, rotate_back};
+use crate::linalg::{Quat, Vec3, Vec6, add, cross, rotate, rotate_back};
 
 /// Pose and velocities of a body at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +18,10 @@ pub struct State {
     pub velocity: Vec3,
     /// Angular velocity omega, body frame (rad/s).
     pub angular_velocity: Vec3,
+    /// Turbulence that the body sees under [`Model::Separated`](crate::Model::Separated), world frame: velocity and
+    /// rotation rate of the fluid in units of their standard deviations.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub fluctuation: Vec6,
 }
 
 impl Default for State {
@@ -30,6 +34,7 @@ impl Default for State {
             orientation: [0.0, 0.0, 0.0, 1.0],
             velocity: [0.0; 3],
             angular_velocity: [0.0; 3],
+            fluctuation: [0.0; 6],
         }
     }
 }
@@ -72,6 +77,7 @@ impl State {
                 .iter()
                 .flatten()
                 .chain(&self.orientation)
+                .chain(&self.fluctuation)
                 .all(|x| x.is_finite())
     }
 }

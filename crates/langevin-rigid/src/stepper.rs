@@ -268,6 +268,7 @@ impl State {
             position: self.position,
             orientation: self.orientation,
             xi: join(self.velocity, self.angular_velocity),
+            fluctuation: self.fluctuation,
         }
     }
 
@@ -280,6 +281,7 @@ impl State {
             orientation: motion.orientation,
             velocity,
             angular_velocity,
+            fluctuation: motion.fluctuation,
         }
     }
 }

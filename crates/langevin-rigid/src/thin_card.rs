@@ -85,6 +85,7 @@ impl Card {
             position: [0.0; 3],
             orientation: quat_from_rotation_vector([0.0, 0.0, start[3]]),
             xi: [start[0], start[1], 0.0, 0.0, 0.0, start[2]],
+            fluctuation: [0.0; 6],
         };
         let mut turn = start[3];
         for _ in 0..steps {

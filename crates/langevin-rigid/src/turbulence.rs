@@ -259,22 +259,6 @@ impl PreparedSource {
         }
     }
 
-    /// The same source with fluctuations of `intensity` times the speed.
-    pub(crate) fn with_intensity(self, intensity: f64) -> Self {
-        match self {
-            Self::BodyDriven {
-                alpha,
-                diffusion,
-                most,
-            } => Self::BodyDriven {
-                alpha: alpha * intensity,
-                diffusion: diffusion * intensity * intensity * intensity,
-                most,
-            },
-            history @ Self::History { .. } => history,
-        }
-    }
-
     /// The same in the lanes of `like`.
     pub(crate) fn lift<R: Real>(&self, like: R) -> PreparedSource<R> {
         match self {

@@ -91,6 +91,7 @@ fn every_bit_comes_back() {
         orientation: numbers(2),
         velocity: numbers(3),
         angular_velocity: numbers(4),
+        fluctuation: [0.3, -0.1, 2.0, 0.7, -1.5, 1e-9],
     };
     same(&state);
     let [density, viscosity] = numbers(5);

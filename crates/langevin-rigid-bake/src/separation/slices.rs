@@ -117,8 +117,21 @@ impl Slicing {
             translation,
             rotation,
             drag_area: axes.tensor(axes.along(|e| panels.drag_of(e, share).area())),
-            extents: self.extents(nodes()),
+            extents: self.extents(&nodes(), &self.corners(k, panels)),
         }
+    }
+
+    /// Corners of the panels that have a share in the slice.
+    fn corners(&self, k: usize, panels: &Panels) -> impl Iterator<Item = Vec3> + Clone {
+        let shares = move |p: &&Panel| p.middles.iter().any(|x| self.share(k, *x) > 0.0);
+        panels.0.iter().filter(shares).flat_map(|panel| {
+            let [ab, bc, ca] = panel.middles;
+            [
+                sub(add(ab, ca), bc),
+                sub(add(ab, bc), ca),
+                sub(add(bc, ca), ab),
+            ]
+        })
     }
 
     /// Centre of the slice's added mass: along the body where the mass is, across it where the
@@ -144,20 +157,37 @@ impl Slicing {
         )
     }
 
-    /// Squared half-extents: across the body from the second moments of the surface, which for a
-    /// plate are a third of them, along it the body's.
-    fn extents(&self, nodes: impl Iterator<Item = Node> + Clone) -> Mat3 {
+    /// Squared half-extents: along the body the body's, across it the chord from the second moments of the surface,
+    /// which for a plate are a third of it. The two faces of a plate have the whole square of its thickness: that
+    /// comes from the chord, as one width of the slice is to the other.
+    fn extents(
+        &self,
+        nodes: &(impl Iterator<Item = Node> + Clone),
+        corners: &(impl Iterator<Item = Vec3> + Clone),
+    ) -> Mat3 {
         let total: f64 = nodes.clone().map(|n| n.weight).sum();
         let middle = nodes
             .clone()
             .fold([0.0; 3], |m, n| add(m, scale(n.weight / total, n.x)));
-        let moments = sum(nodes.map(|n| {
-            let d = sub(n.x, middle);
-            let across = sub(d, scale(dot(d, self.axis), self.axis));
-            outer(3.0 * n.weight / total, across, across)
+        let across = |x: Vec3| {
+            let d = sub(x, middle);
+            sub(d, scale(dot(d, self.axis), self.axis))
+        };
+        let moments = sum(nodes.clone().map(|n| {
+            let d = across(n.x);
+            outer(3.0 * n.weight / total, d, d)
         }));
+        let ([_, thick, chord], axes) = eigen_symmetric(&moments);
+        let direction = |k: usize| -> Vec3 { std::array::from_fn(|i| axes[i][k]) };
+        let width = |e: Vec3| {
+            let places = corners.clone().map(|x| dot(across(x), e));
+            let (low, high) = places.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
+            high - low
+        };
+        let ratio = width(direction(1)) / width(direction(2));
+        let excess = (thick - chord * ratio * ratio).max(0.0);
         let along = outer(self.half_length * self.half_length, self.axis, self.axis);
-        sum([moments, along].into_iter())
+        sum([moments, along, outer(-excess, direction(1), direction(1))].into_iter())
     }
 }
 

@@ -73,7 +73,7 @@ struct Falling {
 /// What becomes of a run while it is carried.
 enum Start {
     /// It is let go in this state.
-    Free(Falling, State),
+    Free(Box<Falling>, State),
     /// It ended before.
     Over(Fall),
 }
@@ -98,7 +98,7 @@ impl Setup<'_> {
             match self.let_go(run) {
                 Start::Free(fall, state) => {
                     batch.push_numbered(run, &state);
-                    falling.push(fall);
+                    falling.push(*fall);
                 }
                 Start::Over(fall) => end(fall),
             }
@@ -177,7 +177,7 @@ impl Setup<'_> {
                 return Start::Over(self.ended(fall, &state, ending));
             }
             if !is_carried(scene, &state) {
-                return Start::Free(fall, state);
+                return Start::Free(Box::new(fall), state);
             }
             let before = state;
             if let Err(error) = advance(scene, self.prepared.stepper(), &release, &mut state) {

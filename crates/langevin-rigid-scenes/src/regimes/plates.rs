@@ -130,6 +130,8 @@ fn strip(inertia_ratio: f64, h: f64) -> Body {
     // Along the span nothing moves in a plane fall; this makes the tensor positive, no more. Nothing turns out of the
     // plane either: so hard to turn that it could not limit the step.
     let along = 0.01 * SPAN;
+    // Along the span as on the edge: the least drag area is that of the plane.
+    let edge = 1.2 * 2.0 * b * SPAN;
     let turning = PI / 8.0 * (a * a - b * b).powi(2) * SPAN;
     Body {
         mass,
@@ -148,7 +150,7 @@ fn strip(inertia_ratio: f64, h: f64) -> Body {
         thickness: h,
         length: 2.0 * a,
         separation: Separation {
-            drag_area: diagonal([1.2 * 2.0 * b * SPAN, 1.95 * 2.0 * a * SPAN, 0.0]),
+            drag_area: diagonal([edge, 1.95 * 2.0 * a * SPAN, edge]),
             extents: diagonal([a * a, b * b, SPAN * SPAN / 4.0]),
             stokes_translation: diagonal([
                 oseen_resistance(a, b) * SPAN,

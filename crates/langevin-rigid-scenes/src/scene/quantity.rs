@@ -77,6 +77,8 @@ pub(super) const DURATION: Kind = Kind::new("s", 1e-12, 1e6);
 pub(super) const DELAY: Kind = Kind::new("s", 0.0, 1e6);
 pub(super) const FRACTION: Kind = Kind::new("", 0.0, 1.0);
 pub(super) const GAIN: Kind = Kind::new("", 0.0, 1e6);
+/// A ratio that other numbers are divided by.
+pub(super) const POSITIVE: Kind = Kind::new("", 1e-6, 1e6);
 /// Standard deviations of angle, angular velocity and velocity.
 pub(super) const ANGLE_SCATTER: Kind = Kind::new("standard deviation, degrees", 0.0, 1e6);
 pub(super) const SPIN_SCATTER: Kind = Kind::new("standard deviation, rad/s", 0.0, 1e6);

@@ -133,9 +133,13 @@ pub(super) struct RawTank {
 pub(super) struct RawSeparated {
     pub(super) attachment: Given<f64>,
     pub(super) broadside_attachment: Given<f64>,
+    pub(super) normal_force_arm: Given<f64>,
     pub(super) dynamic_stall: Given<f64>,
     pub(super) rotational_lift: Given<f64>,
+    pub(super) damping: Given<f64>,
     pub(super) rotational_damping: Given<f64>,
+    pub(super) relief_speed: Given<f64>,
     pub(super) turbulence_intensity: Given<f64>,
+    pub(super) turbulence_memory: Given<f64>,
     pub(super) attached: Option<bool>,
 }

@@ -161,14 +161,16 @@ impl Flow {
                     let of = |load: &Load| load.drag * mirrored_share(slices, k, load.place);
                     loads.iter().map(of).sum()
                 })),
-                extents: diagonal(self.slice_extents(slices, k, &points)),
+                extents: diagonal(
+                    slices.thin(self.slice_extents(slices, k, &points), self.semi_axes),
+                ),
                 ..self.slice_loads(slices, k)
             })
             .collect()
     }
 
-    /// Three times the mean squares over the surface of a slice, which for a plate are its squared half-extents;
-    /// along the body the body's.
+    /// Three times the mean squares over the surface of a slice, which for a plate are its squared half-chord; along the
+    /// body the body's half-length.
     fn slice_extents(&self, slices: &Slices, k: usize, points: &[Point]) -> Vec3 {
         let weight = |p: &Point| p.area * mirrored_share(slices, k, p.place);
         let total: f64 = points.iter().map(weight).sum();

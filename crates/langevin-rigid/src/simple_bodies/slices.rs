@@ -47,6 +47,16 @@ impl Moments {
 }
 
 impl Slices {
+    /// Squared half-extents of a slice from the second moments of its surface, which are right for the chord of a plate
+    /// and too large for its thickness: that is the chord by the ratio of the `half` axes.
+    pub(super) fn thin(&self, mut extents: Vec3, half: Vec3) -> Vec3 {
+        let [u, v] = [(self.axis + 1) % 3, (self.axis + 2) % 3];
+        let (thin, wide) = if half[u] < half[v] { (u, v) } else { (v, u) };
+        let ratio = half[thin] / half[wide];
+        extents[thin] = extents[thin].min(extents[wide] * ratio * ratio);
+        extents
+    }
+
     /// `None` for a body that moves as one; `extents` are its [`half_extents`](super::Form::half_extents), `half` the true ones.
     pub(super) fn of(extents: Vec3, half: Vec3) -> Option<Self> {
         let mut order = [0, 1, 2];
@@ -158,7 +168,7 @@ impl Straight {
                     translation: diagonal(translation),
                     rotation: diagonal(rotation),
                     drag_area: diagonal(drag),
-                    extents: diagonal(extents),
+                    extents: diagonal(slices.thin(extents, self.half)),
                 }
             })
             .collect()

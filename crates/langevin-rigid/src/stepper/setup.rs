@@ -8,10 +8,10 @@ use crate::kirchhoff::Kirchhoff;
 use crate::langevin::Langevin;
 use crate::linalg::{Vec3, norm};
 use crate::published::Published;
-use crate::separated::Closure;
+use crate::separated::{Closure, Eddies};
 use crate::settings::{Integrator, Model, Settings};
 use crate::turbulence::{
-    HistoryError, PreparedSource, TurbulenceHistory, TurbulenceSource, kolmogorov_c0,
+    HistoryError, PreparedSource, Turbulence, TurbulenceHistory, TurbulenceSource, kolmogorov_c0,
 };
 
 /// Why a body cannot be made ready to step.
@@ -97,11 +97,10 @@ pub(super) fn loads(
         }
         Model::Consistent => (FluidLoads::Langevin(langevin(mean()?)?), None),
         Model::Separated => {
-            let constants = settings.separated;
-            let noise = langevin(source()?.with_intensity(constants.turbulence_intensity))?;
-            let closure = Closure::new(body, fluid.density, fluid.viscosity, constants)
+            let closure = Closure::new(body, fluid.density, fluid.viscosity, settings.separated)
                 .ok_or(SetupError::NoSeparation)?;
-            (FluidLoads::Separated(Separated { closure, noise }), None)
+            let eddies = eddies(body, fluid, history, settings)?;
+            (FluidLoads::Separated(Separated { closure, eddies }), None)
         }
         Model::Published(units) if by_the_paper => {
             let published = Published::new(body, fluid, settings.gravity, units, source()?)
@@ -113,6 +112,32 @@ pub(super) fn loads(
         }
         Model::Published(_) => return Err(SetupError::PublishedIntegrator),
     })
+}
+
+/// The turbulence that the closure for separated flow sees.
+fn eddies(
+    body: &Body,
+    fluid: &Fluid,
+    history: Option<&TurbulenceHistory>,
+    settings: &Settings,
+) -> Result<Eddies, SetupError> {
+    let constants = &settings.separated;
+    let missing = SetupError::NoHistory(settings.turbulence);
+    match (settings.turbulence, history) {
+        (TurbulenceSource::History, Some(history)) => {
+            let c0 = kolmogorov_c0(reynolds(body, fluid, settings));
+            Ok(Eddies::precomputed(body, history, c0, constants))
+        }
+        (TurbulenceSource::BodyDriven { wake_age: 0.0 }, _) => {
+            Ok(Eddies::shed(body, fluid.viscosity, 1.0, constants))
+        }
+        (TurbulenceSource::BodyDriven { wake_age }, Some(history)) => {
+            let aged = history.at_age(wake_age).ok_or(missing)?;
+            let strength = (aged.k / Turbulence::at_birth(1.0, 1.0).k).sqrt();
+            Ok(Eddies::shed(body, fluid.viscosity, strength, constants))
+        }
+        _ => Err(missing),
+    }
 }
 
 /// Mean falling speed U0 of Eq. (1) (m/s), with the absolute difference of the densities so that
@@ -139,6 +164,15 @@ pub(super) fn check(fluid: &Fluid, settings: &Settings) -> Result<(), SetupError
         ("the fluid's density", Some(fluid.density)),
         ("the fluid's viscosity", Some(fluid.viscosity)),
         ("the turbulence length", settings.turbulence_length),
+        (
+            "the arm of the normal force",
+            Some(settings.separated.normal_force_arm),
+        ),
+        ("the speed of relief", Some(settings.separated.relief_speed)),
+        (
+            "the memory of the turbulence",
+            Some(settings.separated.turbulence_memory),
+        ),
     ];
     for (name, value) in positive {
         let value = value.unwrap_or(1.0);
@@ -162,6 +196,7 @@ pub(super) fn check(fluid: &Fluid, settings: &Settings) -> Result<(), SetupError
         ("the gain of dynamic stall", c.dynamic_stall),
         ("the rotational lift", c.rotational_lift),
         ("the rotational damping", c.rotational_damping),
+        ("the rotational damping of a thick body", c.damping),
         ("the turbulence intensity", c.turbulence_intensity),
     ] {
         if !(value >= 0.0 && value.is_finite()) {
