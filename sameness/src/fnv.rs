@@ -29,6 +29,7 @@ impl Fnv {
             .as_flattened()
             .iter()
             .chain(&state.orientation)
+            .chain(&state.fluctuation)
             .chain([&state.time])
         {
             self.word(x.to_bits());

@@ -80,8 +80,8 @@ fn about(counted: u64) -> LibraryBenchmarkConfig {
 
 // 100 steps of one body.
 #[library_benchmark]
-#[bench::consistent(args = (Model::Consistent), setup = stepper, config = about(332_569))]
-#[bench::separated(args = (Model::Separated), setup = stepper, config = about(634_062))]
+#[bench::consistent(args = (Model::Consistent), setup = stepper, config = about(364_536))]
+#[bench::separated(args = (Model::Separated), setup = stepper, config = about(847_199))]
 fn step(stepper: Stepper) -> State {
     let mut state = State::default();
     for _ in 0..STEPS {
@@ -95,8 +95,8 @@ fn step(stepper: Stepper) -> State {
 
 // 100 steps of each of 64 bodies, in the lanes that valgrind knows: four of doubles.
 #[library_benchmark]
-#[bench::consistent(args = (Model::Consistent), setup = many, config = about(5_879_832))]
-#[bench::separated(args = (Model::Separated), setup = many, config = about(9_992_438))]
+#[bench::consistent(args = (Model::Consistent), setup = many, config = about(7_067_517))]
+#[bench::separated(args = (Model::Separated), setup = many, config = about(15_802_427))]
 fn step_batch((stepper, mut batch): (Stepper, Batch)) -> Batch {
     for _ in 0..STEPS {
         stepper.step_batch(black_box(&mut batch), 5e-3).unwrap();
