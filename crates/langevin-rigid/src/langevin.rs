@@ -170,7 +170,9 @@ impl<F: Symmetry, R: Real> Langevin<F, R> {
             let zero = h.of(0.0);
             let lost = dot(v, self.modes.linear(&relaxing)).max(zero) * c.alpha * (h * h.of(0.5));
             let moving = zero.less(v2);
-            let taken = c.alpha * self.modes.relaxed(modes);
+            // In a step too long for its rate relaxation takes no more than there is.
+            let rate = c.alpha.min(h.of(0.5) / h);
+            let taken = rate * self.modes.relaxed(modes);
             c.diffusion = c.diffusion.min(taken / self.noise_power);
             c.alpha = R::choose(moving, c.alpha * v2 / (v2 + lost), zero);
         }
