@@ -222,9 +222,9 @@ impl<F: Symmetry, R: Real> Equations<F, R> {
             motion.xi = plus(&motion.xi, fluid);
             momentum = plus(&momentum, &self.kirchhoff.total.times(fluid));
         }
-        let (momentum, _) =
-            self.kirchhoff
-                .step_momentum(&mut motion, &momentum, h, statics, |_, _| None);
+        let momentum = self
+            .kirchhoff
+            .step_momentum(&mut motion, &momentum, h, statics, |_, _| None);
         let fluid = self.fluid_spin(statics, motion.orientation);
         let mut turned = langevin.modes.of_momentum(&momentum);
         if let Some(fluid) = &fluid {

@@ -263,7 +263,7 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         h: R,
         statics: &Statics<R>,
         load: impl Fn(&Vec6<R>, &Ambient<R>) -> Option<(Load<R>, Mat6<R>)>,
-    ) -> R {
+    ) {
         let start = *motion;
         let (momentum, total) = (self.total.times(&start.xi), self.total.matrix());
         // The velocity after `h` with the loads and resistances of `from`, and the power that these feed.
@@ -305,18 +305,16 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         let displacement = mat_vec(&matrix_of(middle.orientation), v);
         motion.position = add_scaled(start.position, h, displacement);
         let after = self.total.times(&motion.xi);
-        let (share, lost) = self.passive(&start, &momentum, motion, &after, h, statics, h * fed);
+        let share = self.passive(&start, &momentum, motion, &after, h, statics, h * fed);
         motion.xi = each(
             h,
             #[inline(always)]
             |i| share * motion.xi[i],
         );
-        lost
     }
 
     /// The share of the momenta `after` a step of `h` from the momenta `before` with which the body has no
-    /// more energy than it had and `statics` gave it, and the energy that the loads took from it
-    /// (J). Loads never feed the body beyond the work `fed` of a torque from outside and of fluid that turns, and a step
+    /// more energy than it had and `statics` gave it. Loads never feed the body beyond the work `fed` of a torque from outside and of fluid that turns, and a step
     /// that is too long must not do so for them. `end` is the motion after the step; where it went further than any
     /// body with that energy can, it goes as far as it can.
     #[expect(clippy::too_many_arguments, reason = "a step, from both ends")]
@@ -330,7 +328,7 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         h: R,
         statics: &Statics<R>,
         fed: R,
-    ) -> (R, R) {
+    ) -> R {
         let (zero, one) = (h.of(0.0), h.of(1.0));
         // Twice the energies.
         let had = dot6(before, &self.inverse.times(before));
@@ -377,16 +375,13 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         // Rounding, and what a sound step errs by.
         let tolerated = allowed + h.of(1e-6) * (had + most * most * h.of(1e-3));
         let gained = tolerated.less(has);
-        let share = R::choose(gained, (tolerated / has).sqrt(), one);
-        let lost = (allowed - has).max(zero) * half;
-        (share, lost)
+        R::choose(gained, (tolerated / has).sqrt(), one)
     }
 
     /// One step by the fourth-order Runge-Kutta-Munthe-Kaas scheme on the rotation group.
     ///
     /// `load` is a further generalized force about the centre of mass, body frame, from the velocity
-    /// relative to the fluid and the gradient of the fluid's velocity, body frame, if there is one. Returns the energy
-    /// that it took from the body (J).
+    /// relative to the fluid and the gradient of the fluid's velocity, body frame, if there is one.
     #[inline(always)]
     pub(crate) fn step(
         &self,
@@ -394,11 +389,10 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         h: R,
         statics: &Statics<R>,
         load: impl Fn(&Vec6<R>, &Ambient<R>) -> Option<Load<R>>,
-    ) -> R {
+    ) {
         let momentum = self.total.times(&motion.xi);
-        let (momentum, lost) = self.step_momentum(motion, &momentum, h, statics, load);
+        let momentum = self.step_momentum(motion, &momentum, h, statics, load);
         motion.xi = self.velocity(&momentum);
-        lost
     }
 
     /// T^-1 of the momenta, corrected once: the rounding of the inverse is the same in every step, so
@@ -430,7 +424,7 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         h: R,
         statics: &Statics<R>,
         load: impl Fn(&Vec6<R>, &Ambient<R>) -> Option<Load<R>>,
-    ) -> (Vec6<R>, R) {
+    ) -> Vec6<R> {
         let start = matrix_of(motion.orientation);
         let loads = statics.seen_from(&start);
         let (half, third, sixth) = (h * h.of(0.5), h * h.of(1.0 / 3.0), h * h.of(1.0 / 6.0));
@@ -448,13 +442,12 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         motion.orientation = quat_normalize(quat_mul(motion.orientation, turned));
         motion.position = add(motion.position, mat_vec(&start, end.displacement));
         let after = momentum_after(&matrix_of(turned), &end);
-        let (share, lost) = self.passive(&before, momentum, motion, &after, h, statics, end.work);
-        let after = each(
+        let share = self.passive(&before, momentum, motion, &after, h, statics, end.work);
+        each(
             h,
             #[inline(always)]
             |i| share * after[i],
-        );
-        (after, lost)
+        )
     }
 
     /// The rate at the start of a step, where nothing has turned yet.

@@ -187,23 +187,11 @@ impl<F: Symmetry, R: Real> Langevin<F, R> {
     }
 
     /// The Euler-Maruyama change of the velocity over `h`, T^-1 A B dW, with the coefficients of the
-    /// velocity `xi`; from turbulence of the body's own it gives no more energy than `lost` (J), if that is
-    /// known.
+    /// velocity `xi`.
     #[inline(always)]
-    pub(crate) fn kick(
-        &self,
-        xi: &Vec6<R>,
-        time: R,
-        h: R,
-        lost: Option<R>,
-        normals: &[R; 6],
-    ) -> Vec6<R> {
+    pub(crate) fn kick(&self, xi: &Vec6<R>, time: R, h: R, normals: &[R; 6]) -> Vec6<R> {
         let diffusion = self.source.coefficients(norm(split(xi).0), time).diffusion;
-        let mut variance = diffusion * h;
-        if let Some(lost) = lost.filter(|_| self.source.follows_speed()) {
-            variance = variance.min(lost / self.noise_power);
-        }
-        let strength = variance.sqrt();
+        let strength = (diffusion * h).sqrt();
         let kick = self.kick.times(normals);
         each(
             h,

@@ -15,7 +15,8 @@ use crate::stepper::{Paper, Stepper, relative_to_turning};
 ///
 /// Their sum is the rate at which the impulse of the body and the fluid that it moves changes
 /// ([`Stepper::linear_impulse`], [`Stepper::angular_impulse`] about the centre of mass), in the frame that moves with
-/// the fluid as it is now. Noise has no mean and is not among them.
+/// the fluid as it is now. Kicks of noise have no mean and are not among them; the turbulence that a body sees is, in the
+/// loads of separated flow.
 ///
 /// ```
 /// use langevin_rigid::{Body, Fluid, Input, Settings, State, Stepper};
@@ -38,7 +39,7 @@ pub struct Loads {
     pub buoyancy: Wrench,
     /// Kirchhoff's term of the added mass: the couple p x v that turns a body broadside to its way (Munk 1924).
     pub added_mass: Wrench,
-    /// Pressure drag.
+    /// Pressure drag and skin friction.
     pub drag: Wrench,
     /// Normal force of a body at incidence.
     pub normal_force: Wrench,

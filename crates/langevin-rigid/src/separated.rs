@@ -2,7 +2,7 @@
 //!
 //! Potential flow turns a moving body with the couple tau = -v x A11 v (Munk). In real flow the
 //! separated wake leaves a fraction of it, the attachment `a`, and that fraction is the couple of a
-//! normal force at the quarter chord. The attachment falls with incidence (stall), and it rises
+//! normal force ahead of the middle. The attachment falls with incidence (stall), and it rises
 //! while incidence grows and falls while it shrinks (dynamic stall); that lag is the negative
 //! damping which drives tumbling. Rotation carries a circulation, whose lift does no work. Drag is
 //! a tensor. Everything is written with the structure of the added-mass tensor, so it holds for
@@ -135,7 +135,7 @@ impl Closure {
 
 impl<F: Symmetry, R: Real> Closure<F, R> {
     /// The closure's generalized force about the centre of mass, body frame, from the velocity
-    /// relative to the fluid and the gradient of the fluid's velocity, body frame; none where the flow stays attached.
+    /// relative to the mean flow and what else the fluid does, body frame; none where the flow stays attached.
     ///
     /// It never feeds energy: its power on the motion relative to the fluid is negative or zero in every state.
     #[inline(always)]
@@ -170,7 +170,7 @@ impl<F: Symmetry, R: Real> Closure<F, R> {
         })
     }
 
-    /// The resistances D of [`Closure::load`], which contains them as -D xi: Stokes resistance, pressure
+    /// The resistances D of [`Closure::load`], which contains them as -D xi: Stokes resistance, skin friction, pressure
     /// drag, normal force and rotational damping, about the centre of mass. Symmetric and positive.
     #[inline(always)]
     pub(crate) fn resistance(&self, xi: &Vec6<R>, ambient: &Ambient<R>) -> Mat6<R> {

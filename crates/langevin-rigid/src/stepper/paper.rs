@@ -88,10 +88,7 @@ fn runge_kutta_step(
         mul(&kirchhoff.inverse, &rate)
     });
     if let Some(langevin) = langevin {
-        accumulate(
-            &mut motion.xi,
-            &langevin.kick(&start, time, dt, None, normals),
-        );
+        accumulate(&mut motion.xi, &langevin.kick(&start, time, dt, normals));
     }
 }
 
