@@ -97,7 +97,7 @@ impl Animation {
                     body: trajectory.body,
                     error,
                 })?;
-                let mut numbers = frames.until(track.end());
+                let mut numbers = frames.of_track(&track);
                 let time = |number: &f64| rounded_time(frames.time(*number));
                 let mut times: Vec<f64> = numbers.iter().map(time).collect();
                 if let [.., before, end] = times[..]

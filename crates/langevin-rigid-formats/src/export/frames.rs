@@ -1,6 +1,11 @@
 //! The frames that a run is divided into.
+//!
+//! A track goes straight from pose to pose, and so do programs from frame to frame. A frame without a pose
+//! next to it would only repeat the line between its neighbours and is left out: a table with a long gap
+//! makes no more frames than one without.
 
 use super::ExportError;
+use crate::track::Track;
 use crate::trajectory::Trajectory;
 
 /// Most frames of an animation, over all its bodies: each takes some hundred bytes.
@@ -32,8 +37,7 @@ impl Frames {
         if !(fps > 0.0 && (end - start) * fps < MOST as f64) {
             return Err(frames.too_many(MOST));
         }
-        let ends = trajectories.iter().filter_map(|t| t.poses.last());
-        let all: f64 = ends.map(|pose| frames.count(pose.time)).sum();
+        let all: f64 = trajectories.iter().map(|t| frames.count(t)).sum();
         if all > MOST as f64 {
             return Err(ExportError::TooManyFrames {
                 frames: all,
@@ -45,9 +49,11 @@ impl Frames {
         Ok(frames)
     }
 
-    /// The most frames until a time (s).
-    fn count(self, end: f64) -> f64 {
-        ((end - self.start) * self.fps).max(0.0).floor() + 2.0
+    /// The most frames of a body.
+    fn count(self, trajectory: &Trajectory) -> f64 {
+        let end = trajectory.poses.last().map_or(self.start, |pose| pose.time);
+        let whole = ((end - self.start) * self.fps).max(0.0).floor() + 2.0;
+        whole.min(2.0 * trajectory.poses.len() as f64 + 2.0)
     }
 
     /// The error that only so many frames are possible.
@@ -59,15 +65,26 @@ impl Frames {
         }
     }
 
-    /// Numbers of the frames until a time (s): whole ones before it, and its own.
-    pub(super) fn until(self, end: f64) -> Vec<f64> {
-        let length = (end - self.start) * self.fps;
-        let mut numbers: Vec<f64> = (0..=length as u32).map(f64::from).collect();
+    /// Numbers of a body's frames: the first, the whole ones next to each of its poses, and its end.
+    pub(super) fn of_track(self, track: &Track<'_>) -> Vec<f64> {
+        let number = |time: f64| (time - self.start) * self.fps;
         // Rounding of the end is no frame of its own.
-        match length.fract() {
-            rest if rest > 1.0 - SAME => numbers.push(length.round()),
-            rest if rest > SAME => numbers.push(length),
-            _ => {}
+        let end = number(track.end());
+        let whole = end.round();
+        let end = if (end - whole).abs() <= SAME { whole } else { end };
+        let mut numbers = vec![0.0];
+        let mut last = 0.0;
+        for pose in track.poses() {
+            let at = number(pose.time);
+            for next in [at.floor(), at.ceil()] {
+                if last < next && next < end {
+                    numbers.push(next);
+                    last = next;
+                }
+            }
+        }
+        if last < end {
+            numbers.push(end);
         }
         numbers
     }
@@ -84,13 +101,25 @@ mod tests {
 
     use super::*;
 
-    fn frames(end: f64, fps: f64) -> Result<Vec<f64>, ExportError> {
-        let at = |time| State {
-            time,
+    /// Poses at some times (s).
+    fn body(number: u32, times: &[f64]) -> Trajectory {
+        let at = |time: &f64| State {
+            time: *time,
             ..State::default()
         };
-        let frames = Frames::of(&[Trajectory::new(0, &[at(0.0), at(end)])], fps)?;
-        Ok(frames.until(end))
+        let states: Vec<State> = times.iter().map(at).collect();
+        Trajectory::new(number, &states)
+    }
+
+    fn numbers(times: &[f64], fps: f64) -> Result<Vec<f64>, ExportError> {
+        let body = [body(0, times)];
+        let frames = Frames::of(&body, fps)?;
+        Ok(frames.of_track(&Track::new(&body[0].poses).unwrap()))
+    }
+
+    fn frames(end: f64, fps: f64) -> Result<Vec<f64>, ExportError> {
+        let times: Vec<f64> = (0..=100).map(|n| end * f64::from(n) / 100.0).collect();
+        numbers(&times, fps)
     }
 
     #[test]
@@ -103,30 +132,37 @@ mod tests {
     }
 
     #[test]
+    fn a_gap_makes_no_frames() {
+        assert_eq!(
+            numbers(&[0.0, 0.05, 3600.0, 3600.02], 60.0).unwrap(),
+            [0.0, 3.0, 216_000.0, 216_001.0, 3600.02 * 60.0]
+        );
+        // A body that comes later waits where it starts.
+        let bodies = [body(0, &[0.0]), body(1, &[10.01, 20.0])];
+        let frames = Frames::of(&bodies, 60.0).unwrap();
+        let track = Track::new(&bodies[1].poses).unwrap();
+        assert_eq!(frames.of_track(&track), [0.0, 600.0, 601.0, 1200.0]);
+    }
+
+    #[test]
     fn frames_are_counted_over_all_bodies() {
-        let at = |time| State {
-            time,
-            ..State::default()
-        };
-        let bodies = |count: u32, end: f64| -> Vec<Trajectory> {
-            let body = |body| Trajectory::new(body, &[at(0.0), at(end)]);
-            (0..count).map(body).collect()
-        };
-        for (count, end) in [(1, 0.0), (3, 1.7), (2, 99944.0)] {
-            let bodies = bodies(count, end);
-            let frames = Frames::of(&bodies, 60.0);
-            let made = 60.0 * end * f64::from(count);
-            if made < 1e7 {
-                let frames = frames.unwrap();
-                assert!(frames.until(end).len() as f64 <= frames.count(end));
-            } else {
-                assert!(matches!(frames, Err(ExportError::TooManyFrames { .. })));
-            }
+        let steps = |count: u32| -> Vec<f64> { (0..=count).map(|n| 0.01 * f64::from(n)).collect() };
+        for (count, times) in [
+            (1, steps(0)),
+            (3, steps(170)),
+            (7, vec![0.0, 0.001, 99944.0]),
+        ] {
+            let bodies: Vec<Trajectory> = (0..count).map(|n| body(n, &times)).collect();
+            let frames = Frames::of(&bodies, 60.0).unwrap();
+            let made = frames.of_track(&Track::new(&bodies[0].poses).unwrap());
+            assert!(made.len() as f64 <= frames.count(&bodies[0]));
         }
-        let error = Frames::of(&bodies(200, 99944.0), 60.0).unwrap_err();
+        let long = body(0, &steps(150_000));
+        let bodies = vec![long; 70];
+        let error = Frames::of(&bodies, 120.0).unwrap_err();
         let message = error.to_string();
         assert!(
-            message.contains("1.199e9 frames") && message.contains("200 bodies"),
+            message.contains("1.260e7 frames") && message.contains("70 bodies"),
             "{message}"
         );
     }

@@ -133,10 +133,10 @@ impl File {
         json!({ "name": name, "samplers": samplers, "channels": channels })
     }
 
-    /// Bodies that end at the same frame share their times.
-    fn times(&mut self, keyframes: &Keyframes, shared: &mut HashMap<u64, usize>) -> usize {
-        let end = keyframes.times[keyframes.times.len() - 1].to_bits();
-        *shared.entry(end).or_insert_with(|| {
+    /// Bodies with the same frames share their times.
+    fn times(&mut self, keyframes: &Keyframes, shared: &mut HashMap<Vec<u64>, usize>) -> usize {
+        let bits = keyframes.times.iter().map(|time| time.to_bits()).collect();
+        *shared.entry(bits).or_insert_with(|| {
             let times: Vec<[f64; 1]> = keyframes.times.iter().map(|t| [*t]).collect();
             let accessor = self.vectors(&times, None);
             self.bounds(accessor, &times);
