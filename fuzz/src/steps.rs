@@ -128,7 +128,7 @@ static BODIES: LazyLock<Vec<Body>> = LazyLock::new(|| {
             thickness,
         },
         Shape::Washer {
-            outer_diameter: 0.02,
+            diameter: 0.02,
             inner_diameter: 0.012,
             thickness,
         },

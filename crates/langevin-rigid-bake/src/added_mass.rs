@@ -14,9 +14,9 @@
 //! the body the mesh gets a layer of short elements, and the tensor is extrapolated from the values
 //! with and without it.
 //!
-//! Up to some 16 000 triangles W is a matrix. Above, near pairs of triangles are integrated one by one
-//! as there, and far clusters of them act on each other through expansions: time and memory grow about
-//! as the number of triangles, and the tensor is that of the matrix to 1e-5 of its largest entries.
+//! Up to about 16 000 triangles W is a matrix. Above that, near pairs of triangles are still integrated one by one, but
+//! distant clusters of them act on each other through expansions: time and memory grow about as the number of triangles,
+//! and the tensor is that of the matrix to 1e-5 of its largest entries.
 
 mod assembly;
 mod clusters;

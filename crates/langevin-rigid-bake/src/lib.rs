@@ -1,10 +1,10 @@
 //! Precomputation of Langevin Rigid: from a triangle mesh to a body that can be stepped.
 //!
-//! What depends on the shape of a body alone is computed once and kept, as a bake. A tool, an asset pipeline or an editor
+//! What depends only on the shape of a body is computed once and kept, as a bake. A tool, an asset pipeline or an editor
 //! links this crate; a game links `langevin-rigid` and reads the bake. Spheres, ellipsoids, discs, plates, cylinders and
 //! boxes need no bake: the run time makes them itself.
 //!
-//! It is of use without the run time, too: it checks and mends meshes, and computes the mass properties and the 6x6
+//! It is useful without the run time, too: it checks and mends meshes, and computes the mass properties and the 6x6
 //! added-mass tensor of any closed body.
 //!
 //! ```
@@ -40,11 +40,11 @@
 //!
 //! # From a mesh to a bake
 //!
-//! 1. A [`TriMesh`] is closed, oriented and does not meet itself. [`TriMesh::new`] takes no other;
-//!    [`TriMesh::from_sheet`] gives an open sheet a thickness; [`shapes`] makes leaves, coins, maple seeds and others; the
-//!    crate `langevin-rigid-formats` reads files.
-//! 2. A mesh that is refused can be looked at with [`mesh::survey()`] and mended by [`mesh::repair()`], which
-//!    [wraps](mesh::Options::wrap) it where nothing else helps. [`TriMesh::proxy`] simplifies one that is too fine.
+//! 1. A [`TriMesh`] is closed, oriented and does not intersect itself. [`TriMesh::new`] accepts no other;
+//!    [`TriMesh::from_sheet`] gives an open sheet a thickness; [`shapes`] makes leaves, coins, maple seeds and others;
+//!    the crate `langevin-rigid-formats` reads files.
+//! 2. [`mesh::survey()`] lists what is wrong with a mesh that is refused, and [`mesh::repair()`] mends it; where nothing
+//!    else helps it [wraps](mesh::Options::wrap) the mesh. [`TriMesh::proxy`] simplifies one that is too fine.
 //! 3. [`body::bake_body`] does the rest: mass properties, added mass, drag areas and slices for separated flow.
 //! 4. [`turbulence::turbulence_history`] adds the turbulence that the body meets, for the turbulence sources that sample it.
 //!
@@ -53,29 +53,30 @@
 //! - [`mesh`]: closed triangle meshes; what is wrong with others, and what mends them.
 //! - [`shapes`]: parametric bodies.
 //! - [`mass_properties`]: volume, mass, centre of mass and inertia, exactly.
-//! - [`added_mass`]: the tensor by boundary elements, with an estimate of its error, and what it will cost.
+//! - [`added_mass`]: the tensor by boundary elements, with an estimate of its error, and a forecast of its cost.
 //! - [`separation`]: the tensors and slices that the closure for separated flow needs.
 //! - [`extents`]: characteristic sizes.
 //! - [`turbulence`]: the k-epsilon model on a MAC grid.
 //! - [`body`]: all of it for one body.
-//! - [`progress`]: how long work reports, and how it is cancelled.
+//! - [`progress`]: how a long computation reports its progress, and how it is cancelled.
 //!
 //! # Conventions
 //!
-//! - SI units throughout. The frame is that of the mesh, triangles are counter-clockwise seen from outside.
+//! - SI units throughout. The frame is that of the mesh, triangles are counter-clockwise as seen from outside.
 //! - A baked body keeps the axes of the mesh and has its origin at the centre of mass. Generated bodies have their centroid
 //!   at the origin, their long axes along x and their thin axis along y.
 //! - Added mass is per unit density of the fluid, linear part first: m^3, m^4 and m^5. [`added_mass::added_mass`] gives it
 //!   about the centroid, a baked body about its centre of mass; [`langevin_rigid::shift_added_mass`] goes from one to the other.
-//! - Errors say what is wrong, where, and what to do. What makes a result doubtful but does not prevent it is among the
-//!   [warnings](added_mass::AddedMass::warnings).
+//! - Errors say what is wrong, where, and what to do. What makes a result doubtful but does not prevent it is listed in
+//!   the [warnings](added_mass::AddedMass::warnings).
 //! - Work runs on the threads of `rayon`. A result has the same bits on any number of them.
-//! - Long work takes a [`Progress`](progress::Progress) and ends soon after it cancels; `&()` neither listens nor cancels.
+//! - A long computation takes a [`Progress`](progress::Progress) and ends soon after that cancels; `&()` ignores reports
+//!   and never cancels.
 //!
 //! # Features
 //!
-//! `meshopt`, on by default: [`TriMesh::proxy`] by meshoptimizer, which is C++ and needs its compiler. Without it
-//! the crate builds for `wasm32-unknown-unknown`, and meshes are not simplified.
+//! `meshopt`, on by default: [`TriMesh::proxy`] uses meshoptimizer, which needs a C++ compiler. Without the feature the
+//! crate builds for `wasm32-unknown-unknown`, and meshes are not simplified.
 
 pub mod added_mass;
 mod axes;

@@ -1,10 +1,9 @@
 //! Closed, oriented triangle meshes: the geometry every body starts from.
 //!
-//! [`TriMesh::new`] accepts only what the boundary integrals can use: one or several closed manifolds that
-//! do not meet, and enclose a volume. Everything else is a [`MeshError`] that
-//! names the place and the remedy. [`TriMesh::from_sheet`] turns an open sheet into such a body,
-//! [`weld`] joins the vertices a file format duplicated, [`survey()`] tells everything about a mesh that may
-//! be bad, and [`repair()`] mends it.
+//! [`TriMesh::new`] accepts only what the boundary integrals can use: one or several closed manifolds that do not meet,
+//! and enclose a volume. Everything else is a [`MeshError`] that names the place and the remedy. [`TriMesh::from_sheet`]
+//! turns an open sheet into such a body, [`weld`] joins the vertices a file format duplicated, [`survey()`] reports
+//! everything that is wrong with a mesh, and [`repair()`] mends it.
 
 mod body;
 mod boundary;

@@ -1,4 +1,4 @@
-//! How long work tells how far it is, and how it is asked to stop.
+//! How a long computation reports its progress, and how it is asked to stop.
 
 /// Receives the progress of long work and may cancel it.
 ///

@@ -1,9 +1,9 @@
 //! Tensors of the closure for separated flow, baked from the shape and its surface potentials.
 //!
-//! [`separation`] is the entry: drag areas from a surface-pressure model ([`pressure_drag`]),
-//! extents, the slices of a long body ([`slices`]), and the Stokes resistance of the ellipsoid with the body's half-extents
-//! ([`stokes_translation`], [`stokes_rotation`]). Friction in a boundary layer depends on the
-//! Reynolds number and is in none of them.
+//! [`separation`] is the entry point: drag areas from a surface-pressure model ([`pressure_drag`]), extents, the slices
+//! of a long body ([`slices`]), and the Stokes resistance of the ellipsoid with the body's half-extents
+//! ([`stokes_translation`], [`stokes_rotation`]). Friction in a boundary layer depends on the Reynolds number and is in
+//! none of them.
 
 mod panels;
 mod pressure;

@@ -68,7 +68,7 @@ pub enum Shape {
     /// A flat ring, its axis along Y; counts as for [`Shape::EllipticalPlate`].
     Washer {
         /// Diameter of the outside.
-        outer_diameter: f64,
+        diameter: f64,
         /// Diameter of the hole.
         inner_diameter: f64,
         /// Thickness along Y, kept exactly.
@@ -220,13 +220,13 @@ impl Shape {
                 triangles,
             ),
             Shape::Washer {
-                outer_diameter,
+                diameter,
                 inner_diameter,
                 thickness,
             } => ring(
                 "washer",
-                ["outer_diameter", "inner_diameter"],
-                [outer_diameter, inner_diameter],
+                ["diameter", "inner_diameter"],
+                [diameter, inner_diameter],
                 thickness,
                 triangles,
             ),

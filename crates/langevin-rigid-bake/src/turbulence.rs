@@ -17,22 +17,20 @@
 //!
 //! # What comes out
 //!
-//! The body is passive: it has no boundary in the flow. The paper's inflow is uniform, and a uniform
-//! stream stays what it is (to the bit, here), with no strain and no production, `G = 0`. The history
-//! of a fixed point at height `H` is then first the decay of the initial turbulence,
-//! `chi = chi0 / (1 + (C2-1) chi0 t)`, and from `t = H/U0` on the plateau of that law at `t = H/U0`:
-//! what comes by has always been in the box for that long. A passive particle, as the paper words
-//! it, never sees the plateau; its `chi` fades like 1/t. The fixed point is the default because a
-//! body that falls on needs loads that do not fade away.
+//! The body is passive: it has no boundary in the flow. The paper's inflow is uniform, and a uniform stream stays what it
+//! is (to the bit, here), with no strain and no production, `G = 0`. The history of a fixed point at height `H` is then
+//! first the decay of the initial turbulence, `chi = chi0 / (1 + (C2-1) chi0 t)`, and from `t = H/U0` on it stays at the
+//! value of that law at `t = H/U0`: the fluid that passes by has always spent that long in the box. A passive particle,
+//! as the paper words it, never sees this plateau; its `chi` decays like 1/t. The fixed point is the default because a
+//! body that keeps falling needs loads that do not fade away.
 //!
 //! Mean flows with structure (shear, vortices, uneven inflow) go through the same solver:
 //! [`MacGrid::set_velocity`] and [`TurbulentFlow`].
 //!
 //! # Choices
 //!
-//! - The sides of the box are slip walls: they let a uniform stream be, and keep the solve direct.
-//! - All equations here are free of viscosity, so `k/U0^2` and `chi l/U0` depend on `U0 t/l` and the
-//!   shape of the grid alone.
+//! - The sides of the box are slip walls: they leave a uniform stream as it is, and allow a direct solve.
+//! - All equations here are inviscid, so `k/U0^2` and `chi l/U0` depend on `U0 t/l` and the shape of the grid alone.
 //! - The bits of a result depend on the options only: not on the number of threads (each value is
 //!   computed from the previous step's, nothing is summed across threads) and not on the processor
 //!   (no dispatch; roots and powers from `libm`).

@@ -62,7 +62,7 @@ fn shape(dice: &mut Dice) -> Shape {
             thickness,
         },
         3 => Shape::Washer {
-            outer_diameter: size,
+            diameter: size,
             inner_diameter: size * 0.6,
             thickness: 0.3 * thickness,
         },

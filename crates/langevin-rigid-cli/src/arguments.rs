@@ -79,8 +79,7 @@ pub(crate) struct Simulate {
     /// Time step (s).
     #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) dt: Option<f64>,
-    /// Equations of motion: consistent, separated, kirchhoff, published or published-si.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = models())]
     pub(crate) model: Option<Model>,
     /// Source of turbulence: body-driven, wake-age=LENGTHS or history.
     #[arg(long, value_name = "SOURCE")]
@@ -98,9 +97,9 @@ pub(crate) struct Simulate {
     /// summary are of the first.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) bodies: u32,
-    /// Formats of the trajectory, with commas between them: csv, npz, parquet, glb, usd.
     #[arg(
         long,
+        help = formats("Formats of the trajectory"),
         value_name = "FORMAT",
         default_value = "csv,glb",
         value_delimiter = ','
@@ -128,9 +127,9 @@ definition, which programs turn to their own axes; --up is for the others.")]
 pub(crate) struct Export {
     /// Folder that `simulate` wrote.
     pub(crate) run: PathBuf,
-    /// Formats, with commas between them: csv, npz, parquet, glb, usd.
     #[arg(
         long,
+        help = formats("Formats"),
         value_name = "FORMAT",
         default_value = "glb,usd",
         value_delimiter = ','
@@ -187,8 +186,7 @@ pub(crate) struct Ensemble {
     /// Seed of the noise and of the releases.
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
-    /// Equations of motion: consistent, separated, published, published-si or kirchhoff.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = models())]
     pub(crate) model: Option<Model>,
     /// Print the statistics as JSON.
     #[arg(long)]
@@ -225,8 +223,7 @@ pub(crate) struct Crowd {
     /// How long, at 60 frames a second.
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = positive)]
     pub(crate) seconds: f64,
-    /// Equations of motion: consistent, separated, published, published-si or kirchhoff.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = models())]
     pub(crate) model: Option<Model>,
     /// Print the figures as JSON.
     #[arg(long)]
@@ -440,6 +437,16 @@ pub(crate) struct Reproduce {
     /// The first seed.
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) seed: u64,
+}
+
+fn models() -> String {
+    let names = Model::ALL.map(Model::name);
+    format!("Equations of motion: {}", names.join(", "))
+}
+
+fn formats(what: &str) -> String {
+    let names = TrajectoryFormat::ALL.map(TrajectoryFormat::name);
+    format!("{what}, with commas between them: {}", names.join(", "))
 }
 
 pub(crate) fn positive(text: &str) -> Result<f64, String> {

@@ -1,4 +1,4 @@
-//! Added mass as the programs that use it want it: one file a destination.
+//! Added mass in the formats of the programs that use it: one file for each.
 //!
 //! All begin from a [`Report`] and return text that can be pasted or parsed as it is, with a comment that
 //! states axes, reference point, density, sign and order.

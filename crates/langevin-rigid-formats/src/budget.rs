@@ -1,4 +1,4 @@
-//! What work will take, before it begins.
+//! What memory and time work will take, estimated before it begins.
 
 use std::fmt::{self, Display, Formatter};
 

@@ -1,8 +1,8 @@
 //! Files of Langevin Rigid: meshes come in; trajectories, animations and added mass go out.
 //!
-//! Tools use it to read the meshes that people have, and to hand runs to the programs that they work with: Blender, Houdini,
-//! game engines, NumPy, pandas, robot simulators. A game does not need it: it reads a
-//! [`Bake`](langevin_rigid::Bake), which the run time does itself.
+//! Tools use it to read the meshes that people have, and to hand runs to the programs that they work with: Blender,
+//! Houdini, game engines, NumPy, pandas, robot simulators. A game does not need it: the run time reads a
+//! [`Bake`](langevin_rigid::Bake) by itself.
 //!
 //! ```
 //! use langevin_rigid::{Fluid, NoiseStream, Settings, State, Stepper};
@@ -39,29 +39,29 @@
 //!
 //! - [`mesh`]: OBJ, STL, PLY, glTF and Collada, read from files or bytes; OBJ and STL, written.
 //! - [`trajectory`]: where a body went, and the table of it as CSV, written and read.
-//! - [`track`]: where a body is between its poses.
+//! - [`track`]: where a body is between its recorded poses.
 //! - [`export`]: runs as CSV, NumPy, Parquet, glTF or USD.
 //! - [`added_mass`]: the tensor for Gazebo, UUV Simulator, MuJoCo and Capytaine, as JSON, CSV or a table for people.
-//! - [`files`]: writing whole or not at all, and claiming a place before the work begins.
-//! - [`budget`]: refusing work that would not fit into memory or end in time.
+//! - [`files`]: writes files whole or not at all, and claims a place before the work begins.
+//! - [`budget`]: refuses work that would not fit into memory or would not finish in reasonable time.
 //!
 //! # Conventions
 //!
 //! - Everything in memory is in SI units. A mesh file that does not state its unit is read with the one that the caller
-//!   gives, and refused without.
+//!   gives, and refused if there is none.
 //! - Tables and animations are in the world frame, right-handed; up is +Y, or +Z where
 //!   [`export::Options::up`] asks for it, but always +Y in glTF. Quaternions are x, y, z, w and turn body vectors into world vectors.
-//! - Files for other programs follow the conventions of these, and state them in a comment where the format has any.
-//! - Readers trust nothing. A damaged or hostile file is an error that says where the fault is and what to do, never a
-//!   panic, and takes no more memory than its length calls for. What was passed over is in
-//!   [`RawMesh::notices`](mesh::RawMesh::notices).
+//! - Files for other programs follow the conventions of those programs, and state them where the format has comments.
+//! - Readers trust nothing. A damaged or hostile file gives an error that says where the fault is and what to do, never a
+//!   panic, and takes no more memory than its length calls for. [`RawMesh::notices`](mesh::RawMesh::notices) lists what
+//!   was skipped.
 //! - Numbers in tables have as many digits as it takes to read back the same bits.
 //!
 //! # Features
 //!
-//! - `meshopt`, on by default: glTF files that meshoptimizer compressed. It is C++ and needs its compiler; without it
-//!   the crate builds for `wasm32-unknown-unknown`, where files are not written.
-//! - `parquet`: [`Format::Parquet`](export::Format::Parquet), whose library takes a good while to build.
+//! - `meshopt`, on by default: reads glTF files that meshoptimizer compressed. It needs a C++ compiler; without the
+//!   feature the crate builds for `wasm32-unknown-unknown`, where files are not written.
+//! - `parquet`: writes [`Format::Parquet`](export::Format::Parquet). Its library takes long to build.
 
 pub mod added_mass;
 pub mod budget;

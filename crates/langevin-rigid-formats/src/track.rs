@@ -1,4 +1,4 @@
-//! Where a body is over time, and at any time between.
+//! Where a body is at its recorded times, and at any time between them.
 
 use libm::{atan2, sin};
 

@@ -1,4 +1,4 @@
-//! Trajectories: what a run leaves of its bodies, as rows of a table.
+//! Trajectories: where the bodies of a run went, as rows of a table.
 
 mod table;
 

@@ -1,4 +1,4 @@
-//! A film of the motion: one body a frame, the path behind it, the camera at rest.
+//! A film of the motion: one body in each frame, its path behind it, the camera fixed.
 
 use crate::canvas::Canvas;
 use crate::layout::Layout;

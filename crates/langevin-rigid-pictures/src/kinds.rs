@@ -1,4 +1,4 @@
-//! The map of kinds: marks of kinds over coloured regions, on two logarithmic axes.
+//! The map of kinds: categories as marks over coloured regions, on two logarithmic axes.
 //!
 //! What it shows is given as numbers and words; [`kind_map`] draws it.
 

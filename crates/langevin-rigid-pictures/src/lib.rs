@@ -1,8 +1,9 @@
-//! Pictures of Langevin Rigid: a body at equal times along its path, films of it, maps of kinds over two axes.
+//! Pictures of Langevin Rigid: strobe pictures of a body along its path, films of it, and maps of categories over two
+//! axes.
 //!
-//! For whoever wants to see a run without a renderer: in a report, in a test, on a server. It draws on the CPU,
-//! without display, graphics card or installed fonts. It knows no science: it is given poses, triangles, numbers and words.
-//! It is no charting library either.
+//! For whoever wants to see a run without a renderer: in a report, in a test, on a server. It draws on the CPU, without
+//! display, graphics card or installed fonts. It knows no science: it is given poses, triangles, numbers and words. Nor
+//! is it a charting library.
 //!
 //! ```
 //! use langevin_rigid::{Body, Fluid, NoiseStream, Settings, State, Stepper};
@@ -36,19 +37,20 @@
 //!
 //! # What it draws
 //!
-//! - [`trajectory_picture`]: the body at equal times, the path between, ground and scale. The time between two
-//!   bodies is the shortest round one at which they stay apart. The two sides of the body have their own
-//!   colours, so that a flip shows; the path darkens with time. A body that would be too small beside its path is
-//!   magnified, and the caption says how much.
-//! - [`Film`]: the same as frames, one body each, from a camera at rest.
-//! - [`kinds`]: marks of kinds over coloured regions, on two logarithmic axes.
+//! - [`trajectory_picture`]: the body at equal times, the path between, ground and scale. The interval between bodies is
+//!   the shortest round one at which they stay apart. The two sides of the body differ in colour, so that a flip shows;
+//!   the path darkens with time. A body that would be too small beside its path is magnified, and the caption says how
+//!   much.
+//! - [`Film`]: the same motion as frames, one body in each, from a fixed camera.
+//! - [`kinds`]: categories as marks over coloured regions, on two logarithmic axes.
 //!
-//! [`Subject`] is the body, [`Pose`] where it is, [`PictureOptions`] and [`View`] how it is seen, [`Picture`] what comes out.
+//! [`Subject`] is the body, a [`Pose`] says where it is, [`PictureOptions`] and [`View`] say how it is seen, and a
+//! [`Picture`] comes out.
 //!
 //! # Conventions
 //!
 //! - Metres, seconds, quaternions x, y, z, w; the world is right-handed with +Y up. Vertices are in the body frame.
-//! - All views are orthographic, at one scale in all panels of a picture.
+//! - All views are orthographic; all panels of a picture have the same scale.
 //! - Pixels are sRGB, opaque, row by row from the top.
 //! - The same input gives the same bytes on every machine.
 //! - What cannot be drawn is a [`PictureError`] that names the first pose, vertex or triangle at fault.

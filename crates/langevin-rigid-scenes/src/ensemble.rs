@@ -2,8 +2,7 @@
 //!
 //! [`run`] drops the body again and again on all cores; each run has its own noise and its own
 //! release, scattered as [`crate::scene::Scatter`] says, and both depend on nothing but the scene's
-//! seed and the number of the run. [`Statistics::new`] and [`landings_csv`] make numbers of the
-//! [`Fall`]s.
+//! seed and the number of the run. [`Statistics::new`] and [`landings_csv`] sum up the [`Fall`]s.
 
 mod fall;
 mod motion_class;

@@ -1,8 +1,8 @@
 //! Scenes of Langevin Rigid: what to simulate, as text, and what is done with it.
 //!
-//! A scene names a body, a fluid, a release and a run, in TOML. This crate reads it, bakes its body and keeps the bake, drops
-//! the body once or a thousand times, and tells how it fell. Use it for experiments, batch work and tools. A game that has
-//! bodies and a loop of its own needs `langevin-rigid` only.
+//! A scene names a body, a fluid, a release and a run, in TOML. This crate reads it, bakes its body and keeps the bake,
+//! drops the body once or a thousand times, and tells how it fell. Use it for experiments, batch work and tools. A game
+//! with bodies and a loop of its own needs only `langevin-rigid`.
 //!
 //! ```
 //! use langevin_rigid::Ending;
@@ -39,9 +39,9 @@
 //! 1. [`Scene::parse`](scene::Scene::parse) reads a text, [`scene::find`] a file or one of the scenes that are
 //!    [built in](scene::BUILT_IN). A [`Scene`](scene::Scene) is complete: each choice that the text left out has its default.
 //! 2. [`Prepared`](prepared::Prepared) is the scene with its bake, its stepper and the hull that touches the ground.
-//! 3. [`Prepared::drop`](prepared::Prepared::drop) keeps the states of one run; [`Prepared::follow`](prepared::Prepared::follow)
-//!    shows them as they come and keeps none.
-//! 4. [`ensemble::run`] drops the body for each of a range of runs, from releases that scatter.
+//! 3. [`Prepared::drop`](prepared::Prepared::drop) keeps the states of one run;
+//!    [`Prepared::follow`](prepared::Prepared::follow) passes each on as it comes and keeps none.
+//! 4. [`ensemble::run`] drops the body once for each run of a range, from scattered releases.
 //!
 //! # Modules
 //!
@@ -54,21 +54,21 @@
 //!
 //! # Conventions
 //!
-//! - SI units throughout. Angles are degrees in a scene's text, in [`Scatter`](scene::Scatter) and in
-//!   [`regimes::Case`], radians in all else.
+//! - SI units throughout. Angles are degrees in a scene's text, in [`Scatter`](scene::Scatter) and in [`regimes::Case`],
+//!   radians everywhere else.
 //! - World and body frame are those of the run time: +Y is up, the body's origin is its centre of mass, plates have
 //!   their thin axis along y. Landings and samples of an [`ensemble::Fall`] are x, depth and z from the release point.
-//! - A mistake in a scene is an error with its line and column. A run that fails is no error of the ensemble: its fall says
-//!   that it diverged, and why.
-//! - A fall depends on its scene and its number alone, to the bit: not on threads, on the runs beside it, or on
+//! - A mistake in a scene is an error with its line and column. A run that fails is not an error of the ensemble: its
+//!   fall says that it diverged, and why.
+//! - A fall depends only on its scene and its number, to the bit: not on threads, nor on the runs beside it, nor on
 //!   whether the bake was kept.
-//! - A kept bake is used again if mesh, choices and code are the same, and made anew if it is damaged. Trouble with
-//!   the folder is reported in [`Baked`](baking::Baked) and stops nothing.
+//! - A kept bake is used again if mesh, options and code are the same, and made anew if it is damaged. Trouble with the
+//!   folder is reported in [`Baked`](baking::Baked) and does not stop the work.
 //!
 //! # Features
 //!
-//! `meshopt`, on by default: that of `langevin-rigid-bake` and `langevin-rigid-formats`. Without it the crate builds for
-//! `wasm32-unknown-unknown`.
+//! `meshopt`, on by default: passed on to `langevin-rigid-bake` and `langevin-rigid-formats`. Without it the crate builds
+//! for `wasm32-unknown-unknown`.
 
 pub mod advance;
 pub mod baking;

@@ -1,8 +1,7 @@
 //! The regimes of falling plates: what the model `separated` does, and what experiments found.
 //!
-//! A grid of discs and strips over Reynolds number and dimensionless inertia I* is dropped from
-//! several tilts; each fall is classified by itself, and each point of the grid compared with the
-//! published map.
+//! A grid of discs and strips over Reynolds number and dimensionless inertia I* is released at several tilts; each fall
+//! is classified by itself, and each point of the grid compared with the published map.
 
 mod fall;
 mod map;

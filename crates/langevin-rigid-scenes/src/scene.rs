@@ -1,8 +1,8 @@
 //! Scene files: what to simulate, as TOML in SI units and degrees.
 //!
 //! [`Scene::parse`] reads and checks one; what is wrong comes back with its line and column.
-//! [`Scene::to_toml`] writes the resolved scene, which reads back as the same scene.
-//! [`find`] opens a built-in scene by name or a file by path; [`BUILT_IN`] is their one registry.
+//! [`Scene::to_toml`] writes the resolved scene, which reads back as the same scene. [`find`] opens a
+//! built-in scene by name or a file by path; [`BUILT_IN`] lists the built-in ones.
 
 mod body;
 mod grid;

@@ -1,32 +1,32 @@
 //! Run time of Langevin Rigid: light bodies immersed in air or water, in real time.
 //!
-//! Leaves flutter, coins tumble in water, sheets of paper drift, balloons follow the wind: rigid bodies whose way is
-//! made by the fluid around them. The generalized Kirchhoff equations with generalized Langevin loads (H. Xie and
-//! K. Miyata, "Langevin Rigid: Animating Immersed Rigid Bodies in Real-time", 2014) move them, with a closure for
-//! separated flow on top, and no grid or panel in sight.
+//! Leaves flutter, coins tumble in water, sheets of paper drift, balloons follow the wind: rigid bodies whose motion is
+//! shaped by the fluid around them. The generalized Kirchhoff equations with generalized Langevin loads move them (H. Xie
+//! and K. Miyata, "Langevin Rigid: Animating Immersed Rigid Bodies in Real-time", 2014), with a closure for separated
+//! flow on top. A step needs no grid and no panels.
 //!
-//! It is no rigid-body engine: it knows no contacts, joints or bodies that meet, but takes their forces in a
-//! [`Wrench`]. It is no fluid solver either: the fluid is what [`Fluid`] and [`Flow`] say, and bodies do not
-//! stir it for one another. It opens no files, starts no threads and has no unsafe code.
+//! It is not a rigid-body engine: it knows no contacts, joints or collisions, but takes their forces as a [`Wrench`]. Nor
+//! is it a fluid solver: [`Fluid`] and [`Flow`] prescribe the fluid, and bodies do not disturb it for one another. It
+//! opens no files, starts no threads and has no unsafe code.
 //!
 //! ```
 #![doc = include_str!("../examples/drop_a_leaf.rs")]
 //! ```
 //!
-//! # From a body to its path
+//! # From a body to its trajectory
 //!
-//! 1. A [`Body`] is its mass properties, its added mass and what separated flow depends on.
-//!    [`Body::sphere`], [`Body::plate`] and others make simple ones; a mesh is baked once, by the crate
-//!    `langevin-rigid-bake` or the command `langevin-rigid bake`, and read as a [`Bake`].
+//! 1. A [`Body`] holds mass properties, added mass, and what the closure for separated flow needs. [`Body::sphere`],
+//!    [`Body::plate`] and others make simple ones; a mesh is baked once, by the crate `langevin-rigid-bake` or the
+//!    command `langevin-rigid bake`, and read as a [`Bake`].
 //! 2. A [`Stepper`] is the body in a [`Fluid`] under [`Settings`]: which [`Model`], which [`Integrator`], which
 //!    [`TurbulenceSource`]. It is made once and may be shared by any number of bodies of that shape.
 //! 3. [`Stepper::step`] advances a [`State`] under an [`Input`]: the [`Flow`] and the [`Wrench`] of the moment, and the
-//!    [`NoiseStream`] of the body. [`run`] repeats it to the ground.
-//! 4. [`Batch`] has many bodies of one shape, which step in SIMD lanes, and in [`Pack`]s on any number of threads.
-//! 5. [`Stepper::loads`] tells what acts on the body, as [`Loads`] by cause.
+//!    [`NoiseStream`] of the body. [`run`] repeats it until the body reaches the ground or the time is up.
+//! 4. [`Batch`] holds many bodies of one shape. They step in SIMD lanes, and in [`Pack`]s on any number of threads.
+//! 5. [`Stepper::loads`] returns what acts on the body, by cause, as [`Loads`].
 //!
 //! A step of any length is stable, allocates nothing and takes microseconds. What cannot be done is an error
-//! ([`SetupError`], [`StepError`], [`BatchError`]) which says what is wrong, and leaves the state as it was.
+//! ([`SetupError`], [`StepError`], [`BatchError`]) that says what is wrong and leaves the state as it was.
 //!
 //! # Conventions
 //!
@@ -36,7 +36,7 @@
 //!   axis along y.
 //! - Vectors and matrices are plain arrays, matrices by rows; six-vectors have their linear part first.
 //! - Quaternions are `[x, y, z, w]` and turn body vectors into world vectors.
-//! - Velocities of a [`State`] are in the body frame, with [`State::world_velocity`] and its like to convert; forces,
+//! - Velocities of a [`State`] are in the body frame; [`State::world_velocity`] and similar methods convert them. Forces,
 //!   torques and flows are in the world frame, torques about the centre of mass.
 //! - `gradient[i][j]` of a [`Flow`] is du_i/dx_j: a wind along x that grows with height has a positive
 //!   `gradient[0][1]`. Half its curl is the rate at which the fluid turns, counter-clockwise positive.
@@ -46,21 +46,22 @@
 //!
 //! # Modules
 //!
-//! Everything is at the root but two modules: [`linalg`], the vectors, rotations and small matrices that the types are
-//! written in, and [`turbulence`], the precomputed history and the coefficients of the Langevin equation.
-//! [`Wake`], [`stokes_translation`] and [`shift_added_mass`] are what the precomputation shares with the run time.
+//! Everything is at the root except two modules: [`linalg`], the vectors, rotations and small matrices that the types are
+//! written in, and [`turbulence`], the precomputed history and the coefficients of the Langevin equation. [`Wake`],
+//! [`stokes_translation`] and [`shift_added_mass`] are what the precomputation shares with the run time.
 //!
 //! # Features
 //!
 //! None is on by default.
 //!
-//! - `mint`: poses, velocities, wrenches and flows to and from the types of any engine's algebra, in either precision:
-//!   `State::mint_pose`, `Wrench::from_mint` and their like. A single array needs none of it: it converts by
-//!   `mint::Vector3::from`.
-//! - `serde`: states, settings, bodies and inputs in files. Choices have the names that scenes give them, such as
-//!   `"separated"`; what [`Settings`], [`Input`] and the parts of these leave out has its default. Numbers keep their bits if the
-//!   format lets them: with `serde_json` by its feature `float_roundtrip`. JSON has no number that is not finite;
-//!   `serde_json` writes `null` and then refuses to read it. A body that was read is checked by [`Stepper::new`].
+//! - `mint`: converts poses, velocities, wrenches and flows to and from the types of any engine's algebra, in either
+//!   precision: `State::mint_pose`, `Wrench::from_mint` and similar methods. A single array does not need the feature:
+//!   `mint::Vector3::from` converts it.
+//! - `serde`: writes and reads states, settings, bodies and inputs. Choices have the names that scenes give them, such as
+//!   `"separated"`; what is left out of [`Settings`], [`Input`] and their parts takes its default. Numbers keep their
+//!   bits if the format allows it; `serde_json` needs its feature `float_roundtrip` for that. JSON has no infinities and
+//!   no NaN: `serde_json` writes `null` for them and then refuses to read it. [`Stepper::new`] checks a body that was
+//!   read.
 
 mod ambient;
 mod bake;

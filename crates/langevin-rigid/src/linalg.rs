@@ -1,7 +1,8 @@
 //! Small dense algebra on plain arrays: three-vectors, unit quaternions, 6x6 tensors.
 //!
 //! Every function is straight-line arithmetic in a fixed order, so results have the same bits on
-//! every platform. Those of three-vectors are in lanes here, and in `f64` for all in [`vector`].
+//! every platform. Those on three-vectors also work in SIMD lanes here; [`vector`] has them in `f64`,
+//! for other crates too.
 
 pub mod vector;
 

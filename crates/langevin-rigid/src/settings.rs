@@ -24,6 +24,26 @@ pub enum Model {
 }
 
 impl Model {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Consistent,
+        Self::Published(UnitSystem::Cgs),
+        Self::Published(UnitSystem::Si),
+        Self::Kirchhoff,
+        Self::Separated,
+    ];
+
+    /// Its name in scenes and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Consistent => "consistent",
+            Self::Published(UnitSystem::Cgs) => "published",
+            Self::Published(UnitSystem::Si) => "published-si",
+            Self::Kirchhoff => "kirchhoff",
+            Self::Separated => "separated",
+        }
+    }
+
     /// The integrator that it is meant for: the printed equations know only the paper's.
     pub fn integrator(self) -> Integrator {
         match self {
@@ -95,26 +115,13 @@ impl std::str::FromStr for Model {
     type Err = UnknownName;
 
     fn from_str(name: &str) -> Result<Self, UnknownName> {
-        let choices = [
-            ("consistent", Self::Consistent),
-            ("published", Self::Published(UnitSystem::Cgs)),
-            ("published-si", Self::Published(UnitSystem::Si)),
-            ("kirchhoff", Self::Kirchhoff),
-            ("separated", Self::Separated),
-        ];
-        choose("model", name, choices)
+        choose("model", name, Self::ALL.map(|model| (model.name(), model)))
     }
 }
 
 impl std::fmt::Display for Model {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Consistent => "consistent",
-            Self::Published(UnitSystem::Cgs) => "published",
-            Self::Published(UnitSystem::Si) => "published-si",
-            Self::Kirchhoff => "kirchhoff",
-            Self::Separated => "separated",
-        })
+        f.write_str(self.name())
     }
 }
 

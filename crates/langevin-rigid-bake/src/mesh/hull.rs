@@ -199,7 +199,7 @@ mod tests {
     #[test]
     fn what_is_inside_does_not_count() {
         let ring = Shape::Washer {
-            outer_diameter: 1.0,
+            diameter: 1.0,
             inner_diameter: 0.5,
             thickness: 0.1,
         };

@@ -96,7 +96,7 @@ fn round_bodies_have_the_volume_and_thickness_they_promise() {
         ),
         (
             Shape::Washer {
-                outer_diameter: d,
+                diameter: d,
                 inner_diameter: 0.097,
                 thickness: t,
             },
@@ -245,17 +245,17 @@ fn no_triangle_of_a_generated_body_cuts_another() {
             thickness: 1e-3,
         },
         Shape::Washer {
-            outer_diameter: 1.0,
+            diameter: 1.0,
             inner_diameter: 0.97,
             thickness: 0.1,
         },
         Shape::Washer {
-            outer_diameter: 1.0,
+            diameter: 1.0,
             inner_diameter: 0.8,
             thickness: 0.1,
         },
         Shape::Washer {
-            outer_diameter: 1.0,
+            diameter: 1.0,
             inner_diameter: 0.5,
             thickness: 0.1,
         },
@@ -317,7 +317,7 @@ fn impossible_shapes_are_refused_by_name() {
         .contains("thickness")
     );
     let message = bad(Shape::Washer {
-        outer_diameter: 1.0,
+        diameter: 1.0,
         inner_diameter: 1.0,
         thickness: 0.1,
     });

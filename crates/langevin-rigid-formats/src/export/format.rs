@@ -27,31 +27,27 @@ impl Format {
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Csv => "csv",
-            Self::Npz => "npz",
-            Self::Parquet => "parquet",
-            Self::Glb => "glb",
-            Self::Usd => "usd",
-        }
+        self.row().0
     }
 
     /// The file that it is written to.
     pub fn file_name(self) -> &'static str {
-        match self {
-            Self::Csv => "trajectory.csv",
-            Self::Npz => "trajectory.npz",
-            Self::Parquet => "trajectory.parquet",
-            Self::Glb => "trajectory.glb",
-            Self::Usd => "trajectory.usda",
-        }
+        self.row().1
     }
 
     /// Whether it has frames in place of every step.
     pub fn is_animation(self) -> bool {
+        self.row().2
+    }
+
+    /// Name, file, whether it is an animation.
+    fn row(self) -> (&'static str, &'static str, bool) {
         match self {
-            Self::Glb | Self::Usd => true,
-            Self::Csv | Self::Npz | Self::Parquet => false,
+            Self::Csv => ("csv", "trajectory.csv", false),
+            Self::Npz => ("npz", "trajectory.npz", false),
+            Self::Parquet => ("parquet", "trajectory.parquet", false),
+            Self::Glb => ("glb", "trajectory.glb", true),
+            Self::Usd => ("usd", "trajectory.usda", true),
         }
     }
 

@@ -16,7 +16,7 @@ use super::motion_class::MotionClass;
 ///
 /// The columns against time are over the falls that are still under way at that time, and stop where
 /// fewer than half are: the last drops in the water are not like all drops.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Statistics {
     /// Times: whole sixtieths of a second (s).
     pub t: Vec<f64>,
@@ -54,17 +54,8 @@ impl Statistics {
             *motions.entry(fall.motion.motion()).or_default() += 1;
         }
         let mut statistics = Self {
-            t: Vec::new(),
-            falling: Vec::new(),
-            depth_mean: Vec::new(),
-            depth_std: Vec::new(),
-            x_std: Vec::new(),
-            z_std: Vec::new(),
-            landed: 0,
-            landing_sigma_x: None,
-            landing_sigma_z: None,
-            median_landing_distance: None,
             motions,
+            ..Self::default()
         };
         statistics.follow(&good);
         statistics.land(&good);

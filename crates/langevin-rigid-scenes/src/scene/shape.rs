@@ -4,136 +4,73 @@ use langevin_rigid_bake::shapes::Shape;
 use serde_spanned::Spanned;
 
 use super::place::{Document, SceneError};
-use super::quantity::{HOLE, RADIUS, SIZE};
+use super::quantity::{HOLE, Kind, RADIUS, SIZE};
 use super::raw::{Given, RawBody, given};
 
 /// A shape as scenes have it.
 struct Entry {
     name: &'static str,
-    /// The keys that it takes.
+    /// The keys of its dimensions, which are the fields of its [`Shape`].
     keys: &'static [&'static str],
     read: fn(&Dimensions) -> Result<Shape, SceneError>,
 }
 
-/// All shapes, as messages list them. A new one is a row here, and an arm of [`write`].
-const SHAPES: &[Entry] = &[
-    Entry {
-        name: "ellipsoid",
-        keys: &["semi_axes"],
-        read: |given| {
-            Ok(Shape::Ellipsoid {
-                semi_axes: given.semi_axes()?,
-            })
-        },
-    },
-    Entry {
-        name: "elliptical-plate",
-        keys: &["semi_axes", "thickness"],
-        read: |given| {
-            Ok(Shape::EllipticalPlate {
-                semi_axes: given.semi_axes()?,
-                thickness: given.thickness()?,
-            })
-        },
-    },
-    Entry {
-        name: "disc",
-        keys: &["diameter", "radius", "thickness"],
-        read: |given| {
-            Ok(Shape::Disc {
-                radius: given.radius()?,
-                thickness: given.thickness()?,
-            })
-        },
-    },
-    Entry {
-        name: "coin",
-        keys: &["diameter", "thickness", "hole"],
-        read: |given| {
-            Ok(Shape::Coin {
-                diameter: given.size("diameter", &given.body.diameter)?,
-                thickness: given.thickness()?,
-                hole: given
-                    .doc
-                    .given(&given.body.hole, "hole", HOLE)?
-                    .unwrap_or(0.0),
-            })
-        },
-    },
-    Entry {
-        name: "washer",
-        keys: &["diameter", "inner_diameter", "thickness"],
-        read: |given| {
-            Ok(Shape::Washer {
-                outer_diameter: given.size("diameter", &given.body.diameter)?,
-                inner_diameter: given.size("inner_diameter", &given.body.inner_diameter)?,
-                thickness: given.thickness()?,
-            })
-        },
-    },
-    Entry {
-        name: "box",
-        keys: &["size"],
-        read: |given| {
-            Ok(Shape::Box {
-                size: given.edges()?,
-            })
-        },
-    },
-    Entry {
-        name: "cylinder",
-        keys: &["diameter", "radius", "height"],
-        read: |given| {
-            Ok(Shape::Cylinder {
-                radius: given.radius()?,
-                height: given.size("height", &given.body.height)?,
-            })
-        },
-    },
-    Entry {
-        name: "paper-airplane",
-        keys: &["side", "thickness"],
-        read: |given| {
-            Ok(Shape::PaperAirplane {
-                side: given.size("side", &given.body.side)?,
-                thickness: given.thickness()?,
-            })
-        },
-    },
-    Entry {
-        name: "leaf",
-        keys: &["length", "width", "thickness"],
-        read: |given| {
-            Ok(Shape::Leaf {
-                length: given.size("length", &given.body.length)?,
-                width: given.size("width", &given.body.width)?,
-                thickness: given.thickness()?,
-            })
-        },
-    },
-    Entry {
-        name: "feather",
-        keys: &["length", "width", "thickness"],
-        read: |given| {
-            Ok(Shape::Feather {
-                length: given.size("length", &given.body.length)?,
-                width: given.size("width", &given.body.width)?,
-                thickness: given.thickness()?,
-            })
-        },
-    },
-    Entry {
-        name: "samara",
-        keys: &["length", "width", "thickness"],
-        read: |given| {
-            Ok(Shape::Samara {
-                length: given.size("length", &given.body.length)?,
-                width: given.size("width", &given.body.width)?,
-                thickness: given.thickness()?,
-            })
-        },
-    },
-];
+/// Makes of one row a shape the table that is read by and the function that writes.
+macro_rules! shapes {
+    ($($name:literal: $shape:ident { $($key:ident),* },)*) => {
+        /// All shapes, as messages list them.
+        const SHAPES: &[Entry] = &[$(Entry {
+            name: $name,
+            keys: &[$(stringify!($key)),*],
+            read: |given| Ok(Shape::$shape { $($key: given.$key()?),* }),
+        }),*];
+
+        /// The keys of a resolved shape.
+        pub(super) fn write(shape: &Shape) -> RawBody {
+            match *shape {
+                $(Shape::$shape { $($key),* } => RawBody {
+                    shape: given($name.to_owned()),
+                    $($key: given($key.into_raw()),)*
+                    ..RawBody::default()
+                },)*
+            }
+        }
+    };
+}
+
+shapes! {
+    "ellipsoid": Ellipsoid { semi_axes },
+    "elliptical-plate": EllipticalPlate { semi_axes, thickness },
+    "disc": Disc { radius, thickness },
+    "coin": Coin { diameter, thickness, hole },
+    "washer": Washer { diameter, inner_diameter, thickness },
+    "box": Box { size },
+    "cylinder": Cylinder { radius, height },
+    "paper-airplane": PaperAirplane { side, thickness },
+    "leaf": Leaf { length, width, thickness },
+    "feather": Feather { length, width, thickness },
+    "samara": Samara { length, width, thickness },
+}
+
+/// A dimension as a scene file has it: arrays are lists there.
+trait IntoRaw {
+    type Raw;
+    fn into_raw(self) -> Self::Raw;
+}
+
+impl IntoRaw for f64 {
+    type Raw = f64;
+    fn into_raw(self) -> f64 {
+        self
+    }
+}
+
+impl<const N: usize> IntoRaw for [f64; N] {
+    type Raw = Vec<f64>;
+    fn into_raw(self) -> Vec<f64> {
+        self.to_vec()
+    }
+}
 
 /// The names of all shapes.
 pub(super) fn names() -> String {
@@ -152,11 +89,17 @@ pub(super) fn resolve(
         name,
         SHAPES.iter().map(|shape| (shape.name, shape)),
     )?;
-    allow(doc, body, shape.name, shape.keys)?;
+    allow(doc, body, shape.name, &allowed(shape.keys))?;
     (shape.read)(&Dimensions { doc, body, name })
 }
 
-/// The dimensions in the section of a shape.
+/// These keys, and the diameter that may stand for a radius.
+fn allowed(keys: &[&'static str]) -> Vec<&'static str> {
+    let diameter = keys.contains(&"radius").then_some("diameter");
+    diameter.into_iter().chain(keys.iter().copied()).collect()
+}
+
+/// The dimensions in the section of a shape, each by its key.
 struct Dimensions<'a> {
     doc: &'a Document<'a>,
     body: &'a RawBody,
@@ -164,15 +107,12 @@ struct Dimensions<'a> {
 }
 
 impl Dimensions<'_> {
-    fn size(&self, key: &str, value: &Given<f64>) -> Result<f64, SceneError> {
-        match value {
-            Some(value) => self.doc.number(value, key, SIZE),
-            None => Err(self.missing(key)),
-        }
+    fn semi_axes<const N: usize>(&self) -> Result<[f64; N], SceneError> {
+        self.lengths("semi_axes", &self.body.semi_axes, RADIUS)
     }
 
-    fn thickness(&self) -> Result<f64, SceneError> {
-        self.size("thickness", &self.body.thickness)
+    fn size(&self) -> Result<[f64; 3], SceneError> {
+        self.lengths("size", &self.body.size, SIZE)
     }
 
     /// The radius, or half the diameter.
@@ -183,22 +123,60 @@ impl Dimensions<'_> {
                 Err(self.doc.error(diameter.span(), message))
             }
             (Some(radius), None) => self.doc.number(radius, "radius", RADIUS),
-            (None, diameter) => Ok(0.5 * self.size("diameter", diameter)?),
+            (None, _) => Ok(0.5 * self.diameter()?),
         }
     }
 
-    fn semi_axes<const N: usize>(&self) -> Result<[f64; N], SceneError> {
-        match &self.body.semi_axes {
-            Some(axes) => self.doc.numbers(axes, "semi_axes", RADIUS),
-            None => Err(self.missing("semi_axes")),
+    fn diameter(&self) -> Result<f64, SceneError> {
+        self.length_of("diameter", &self.body.diameter)
+    }
+
+    fn inner_diameter(&self) -> Result<f64, SceneError> {
+        self.length_of("inner_diameter", &self.body.inner_diameter)
+    }
+
+    /// The diameter of the hole, 0 where none is given.
+    fn hole(&self) -> Result<f64, SceneError> {
+        let hole = self.doc.given(&self.body.hole, "hole", HOLE)?;
+        Ok(hole.unwrap_or(0.0))
+    }
+
+    fn height(&self) -> Result<f64, SceneError> {
+        self.length_of("height", &self.body.height)
+    }
+
+    fn length(&self) -> Result<f64, SceneError> {
+        self.length_of("length", &self.body.length)
+    }
+
+    fn width(&self) -> Result<f64, SceneError> {
+        self.length_of("width", &self.body.width)
+    }
+
+    fn side(&self) -> Result<f64, SceneError> {
+        self.length_of("side", &self.body.side)
+    }
+
+    fn thickness(&self) -> Result<f64, SceneError> {
+        self.length_of("thickness", &self.body.thickness)
+    }
+
+    fn length_of(&self, key: &str, value: &Given<f64>) -> Result<f64, SceneError> {
+        match value {
+            Some(value) => self.doc.number(value, key, SIZE),
+            None => Err(self.missing(key)),
         }
     }
 
-    /// The edges of a box.
-    fn edges(&self) -> Result<[f64; 3], SceneError> {
-        match &self.body.size {
-            Some(size) => self.doc.numbers(size, "size", SIZE),
-            None => Err(self.missing("size")),
+    fn lengths<const N: usize>(
+        &self,
+        key: &str,
+        values: &Given<Vec<f64>>,
+        kind: Kind,
+    ) -> Result<[f64; N], SceneError> {
+        match values {
+            Some(values) => self.doc.numbers(values, key, kind),
+            None => Err(self.missing(key)),
         }
     }
 
@@ -245,98 +223,6 @@ fn dimensions(raw: &RawBody) -> [(&'static str, Option<std::ops::Range<usize>>);
         ("side", at(&raw.side)),
         ("thickness", at(&raw.thickness)),
     ]
-}
-
-/// The keys of a resolved shape.
-pub(super) fn write(shape: &Shape) -> RawBody {
-    let none = RawBody::default();
-    let name = |name: &str| given(name.to_owned());
-    match *shape {
-        Shape::Ellipsoid { semi_axes } => RawBody {
-            shape: name("ellipsoid"),
-            semi_axes: given(semi_axes.to_vec()),
-            ..none
-        },
-        Shape::EllipticalPlate {
-            semi_axes,
-            thickness,
-        } => RawBody {
-            shape: name("elliptical-plate"),
-            semi_axes: given(semi_axes.to_vec()),
-            thickness: given(thickness),
-            ..none
-        },
-        Shape::Disc { radius, thickness } => RawBody {
-            shape: name("disc"),
-            radius: given(radius),
-            thickness: given(thickness),
-            ..none
-        },
-        Shape::Coin {
-            diameter,
-            thickness,
-            hole,
-        } => RawBody {
-            shape: name("coin"),
-            diameter: given(diameter),
-            thickness: given(thickness),
-            hole: given(hole),
-            ..none
-        },
-        Shape::Washer {
-            outer_diameter,
-            inner_diameter,
-            thickness,
-        } => RawBody {
-            shape: name("washer"),
-            diameter: given(outer_diameter),
-            inner_diameter: given(inner_diameter),
-            thickness: given(thickness),
-            ..none
-        },
-        Shape::Box { size } => RawBody {
-            shape: name("box"),
-            size: given(size.to_vec()),
-            ..none
-        },
-        Shape::Cylinder { radius, height } => RawBody {
-            shape: name("cylinder"),
-            radius: given(radius),
-            height: given(height),
-            ..none
-        },
-        Shape::PaperAirplane { side, thickness } => RawBody {
-            shape: name("paper-airplane"),
-            side: given(side),
-            thickness: given(thickness),
-            ..none
-        },
-        Shape::Leaf {
-            length,
-            width,
-            thickness,
-        } => write_blade("leaf", [length, width, thickness]),
-        Shape::Feather {
-            length,
-            width,
-            thickness,
-        } => write_blade("feather", [length, width, thickness]),
-        Shape::Samara {
-            length,
-            width,
-            thickness,
-        } => write_blade("samara", [length, width, thickness]),
-    }
-}
-
-fn write_blade(name: &str, [length, width, thickness]: [f64; 3]) -> RawBody {
-    RawBody {
-        shape: given(name.to_owned()),
-        length: given(length),
-        width: given(width),
-        thickness: given(thickness),
-        ..RawBody::default()
-    }
 }
 
 #[cfg(test)]
