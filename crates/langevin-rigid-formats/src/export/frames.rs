@@ -71,7 +71,11 @@ impl Frames {
         // Rounding of the end is no frame of its own.
         let end = number(track.end());
         let whole = end.round();
-        let end = if (end - whole).abs() <= SAME { whole } else { end };
+        let end = if (end - whole).abs() <= SAME {
+            whole
+        } else {
+            end
+        };
         let mut numbers = vec![0.0];
         let mut last = 0.0;
         for pose in track.poses() {
