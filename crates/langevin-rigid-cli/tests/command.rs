@@ -450,6 +450,7 @@ fn bench_prints_a_positive_figure_for_each_of_its_names() {
         "added_mass_1280_ms",
         "added_mass_5120_ms",
         "turbulence_cells_per_s",
+        "turbulence_paper_ms",
     ] {
         assert!(positive(&figures[name]), "{name}");
     }
