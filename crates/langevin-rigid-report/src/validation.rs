@@ -13,7 +13,7 @@ pub(crate) fn section(_: &Options, progress: &dyn Progress) -> Result<Section, R
     let mut section = Section::new("validation", title);
     section.text(
         "Errors are in percent of each entry of the diagonal, in the order of the axes. Left out is what takes \
-         minutes: meshes of more than some ten thousand triangles.",
+         longer than a few seconds: meshes of more than some ten thousand triangles.",
     );
     added_mass::ellipsoids(&mut section, progress)?;
     added_mass::edges(&mut section, progress)?;

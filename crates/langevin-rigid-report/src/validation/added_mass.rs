@@ -120,24 +120,26 @@ pub(super) fn edges(section: &mut Section, progress: &dyn Progress) -> Result<()
         let found = solve(&mesh, progress)?;
         let key = format!("box.{}.{}", edged.name, edged.triangles);
         let triangles = triangles(section, &key, &found);
-        let mut error = |motion: &str, (i, wanted): (usize, f64)| {
+        let mut compared = |motion: &str, (i, wanted): (usize, f64)| {
             let error = percent(found.tensor[i][i], wanted);
-            section
-                .quote(format!("{key}.{motion}"), error, 2)
-                .to_string()
+            let key = format!("{key}.{motion}");
+            let wanted = section.quote(format!("{key}.wanted"), wanted, 4);
+            let error = section.quote(key, error, 2);
+            [wanted.to_string(), error.to_string()]
         };
-        let translation = error("translation", edged.translation);
-        let rotation = edged.rotation.map(|entry| error("rotation", entry));
-        rows.push(vec![
-            edged.name,
-            triangles,
-            translation,
-            rotation.unwrap_or_default(),
-        ]);
+        let [moving, translation] = compared("translation", edged.translation);
+        let [turning, rotation] = match edged.rotation {
+            Some(entry) => compared("rotation", entry),
+            None => Default::default(),
+        };
+        let wanted = [moving, turning].join(" ");
+        let wanted = wanted.trim_end().to_owned();
+        rows.push(vec![edged.name, triangles, wanted, translation, rotation]);
     }
     let head = [
         "body",
         "triangles given, solved on",
+        "compared with",
         "translation",
         "rotation",
     ];

@@ -42,10 +42,12 @@ pub(super) fn closed_forms(
     progress: &dyn Progress,
 ) -> Result<(), ReportError> {
     section.heading("Turbulence against closed forms");
-    section.text(
-        "k and epsilon carried at 10 m/s; the difference is the worst over the way, in steps that cross 0.37, 1 and \
-         2.6 cells. In a shear that is the same everywhere production and dissipation come to a fixed ratio.",
-    );
+    let [short, middle, long] = COURANT_NUMBERS;
+    section.text(format!(
+        "k and epsilon carried at {SPEED} m/s; the difference is the worst over the way, in steps that cross {short}, \
+         {middle} and {long} cells. In a shear that is the same everywhere production and dissipation come to a fixed \
+         ratio.",
+    ));
     let mut rows = Vec::new();
     for found in decay(progress)?.into_iter().chain(shear(progress)?) {
         let Comparison { words, key, .. } = found;
@@ -84,6 +86,7 @@ fn decay(progress: &dyn Progress) -> Result<[Comparison; 2], ReportError> {
         for _ in 0..(240.0 / courant) as usize {
             step(&mut flow, courant * cell / SPEED, progress)?;
         }
+        // The last is the one that is shown.
         for distance in [0.0, 0.01, 0.025, 0.3, 0.77, 1.15, 1.0] {
             let here = flow.turbulence().at([0.07, distance, 0.05]);
             let closed = decayed(START, distance / SPEED);
