@@ -1,6 +1,7 @@
 //! Added mass of bodies whose tensor is known, and of cones of ever more needles.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use langevin_rigid::{Body, SetupError};
 use langevin_rigid_bake::TriMesh;
@@ -58,13 +59,13 @@ pub(super) fn ellipsoids(
     Ok(())
 }
 
-/// A box, the triangles it is given, and what its entries are to be: a number of the diagonal each.
+/// A box, the triangles it is given, and what entries of the diagonal are to be.
 struct Edged {
     name: String,
     size: [f64; 3],
     triangles: usize,
-    translation: (usize, f64),
-    rotation: Option<(usize, f64)>,
+    translation: (Range<usize>, f64),
+    rotation: Option<(Range<usize>, f64)>,
 }
 
 impl Edged {
@@ -73,8 +74,8 @@ impl Edged {
             name: "cube".to_owned(),
             size: [1.0; 3],
             triangles,
-            translation: (0, CUBE[0]),
-            rotation: Some((3, CUBE[1])),
+            translation: (0..3, CUBE[0]),
+            rotation: Some((3..6, CUBE[1])),
         }
     }
 
@@ -86,8 +87,8 @@ impl Edged {
             ),
             size: [1.0, thickness, 1.0],
             triangles,
-            translation: (1, broadside),
-            rotation: Some((3, turning)),
+            translation: (1..2, broadside),
+            rotation: Some((3..4, turning)),
         }
     }
 
@@ -96,7 +97,7 @@ impl Edged {
             name: format!("square prism, length {length}, axial"),
             size: [length, 1.0, 1.0],
             triangles: 12,
-            translation: (0, axial * length),
+            translation: (0..1, axial * length),
             rotation: None,
         }
     }
@@ -120,12 +121,16 @@ pub(super) fn edges(section: &mut Section, progress: &dyn Progress) -> Result<()
         let found = solve(&mesh, progress)?;
         let key = format!("box.{}.{}", edged.name, edged.triangles);
         let triangles = triangles(section, &key, &found);
-        let mut compared = |motion: &str, (i, wanted): (usize, f64)| {
-            let error = percent(found.tensor[i][i], wanted);
-            let key = format!("{key}.{motion}");
-            let wanted = section.quote(format!("{key}.wanted"), wanted, 4);
-            let error = section.quote(key, error, 2);
-            [wanted.to_string(), error.to_string()]
+        let mut compared = |motion: &str, (entries, wanted): (Range<usize>, f64)| {
+            let errors: Vec<String> = entries
+                .map(|i| {
+                    let error = percent(found.tensor[i][i], wanted);
+                    let key = format!("{key}.{motion}.{}", i % 3);
+                    section.quote(key, error, 2).to_string()
+                })
+                .collect();
+            let wanted = section.quote(format!("{key}.{motion}.wanted"), wanted, 4);
+            [wanted.to_string(), errors.join(" ")]
         };
         let [moving, translation] = compared("translation", edged.translation);
         let [turning, rotation] = match edged.rotation {
