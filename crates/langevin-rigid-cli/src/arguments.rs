@@ -202,6 +202,10 @@ pub(crate) struct Bench {
     /// Print the figures as JSON.
     #[arg(long)]
     pub(crate) json: bool,
+    /// Write the table of the figures into the pages (*.md) of this folder that have the line
+    /// `<!-- table: bench/main -->`, up to `<!-- end -->`.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) update: Option<PathBuf>,
 }
 
 /// Step many bodies of a scene in real time and count the frames that are missed.
@@ -420,10 +424,14 @@ pub(crate) struct Bake {
 Examples:
   langevin-rigid reproduce
   langevin-rigid reproduce --only fig3,fig5 --seeds 20
+  langevin-rigid reproduce --only validation --update docs
 
 Writes into DIR: report.html, which needs no other file and no network, and a folder of raw data for
-each part: numbers.json with every number of the page, tables as CSV, pictures as PNG. Each part is
-written when it is finished; Ctrl-C keeps those that are.")]
+each part: numbers.json with every number of the page, tables as Markdown, curves as CSV, pictures as
+PNG. Each part is written when it is finished; Ctrl-C keeps those that are.
+
+--update replaces what stands between the lines `<!-- table: PART/NAME -->` and `<!-- end -->` of the
+pages (*.md) in DIR by the tables of the parts that were computed.")]
 pub(crate) struct Reproduce {
     /// Folder for the results.
     #[arg(long, value_name = "DIR", default_value = "out/reproduce")]
@@ -437,6 +445,9 @@ pub(crate) struct Reproduce {
     /// The first seed.
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) seed: u64,
+    /// Write the tables into the pages of this folder as well.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) update: Option<PathBuf>,
 }
 
 fn models() -> String {

@@ -10,13 +10,14 @@ use langevin_rigid_bake::added_mass;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::{Boundary, MacGrid, TurbulentFlow};
+use langevin_rigid_report::{Table, pages, paper};
 use langevin_rigid_scenes::{advance::advance, scene};
 use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::arguments::Bench;
 use crate::bars::Bars;
-use crate::{cache, say};
+use crate::{cache, reproduce, say};
 
 /// Times are medians over so many repetitions.
 const REPEATS: usize = 31;
@@ -27,8 +28,12 @@ const STEPS: u32 = 2000;
 const BODIES: u32 = 4096;
 const CROWD: u32 = 65_536;
 const BODY_STEPS: u32 = 262_144;
-/// Cells of the timed turbulence grid along each axis.
-const CELLS: usize = 64;
+/// Cells of the timed turbulence grids: ours, and the paper's.
+const CELLS: [usize; 3] = [64; 3];
+const FEW_CELLS: [usize; 3] = [32, 32, 8];
+
+/// What the manual calls these figures.
+const PART: &str = "bench";
 
 /// The scenes of the paper's Table 2, and that of them whose step is the headline.
 const TABLE_2: &str = "table2-";
@@ -55,11 +60,16 @@ struct Report {
     added_mass_5120_ms: f64,
     /// Whole steps of the flow solver on a grid of 64^3 cells.
     turbulence_cells_per_s: f64,
+    /// One step on the paper's grid of 32 x 32 x 8 cells.
+    turbulence_paper_ms: f64,
     /// One step of each row of the paper's Table 2, model `consistent`.
     table2: std::collections::BTreeMap<&'static str, f64>,
 }
 
 pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
+    if let Some(manual) = &options.update {
+        pages::list(manual)?;
+    }
     let threads = rayon::current_num_threads();
     let on_one = step_batch::<f64>(Model::Consistent, BODIES, 1, bars)?;
     let scaling = step_batch::<f64>(Model::Consistent, CROWD, 1, bars)?
@@ -81,14 +91,24 @@ pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
             .collect::<Result<_>>()?,
         added_mass_1280_ms: added_mass_ms(1280, bars)?,
         added_mass_5120_ms: added_mass_ms(5120, bars)?,
-        turbulence_cells_per_s: turbulence_cells_per_s(bars)?,
+        turbulence_cells_per_s: CELLS.iter().product::<usize>() as f64
+            / turbulence_seconds(CELLS, bars)?,
+        turbulence_paper_ms: 1e3 * turbulence_seconds(FEW_CELLS, bars)?,
     };
     bars.clear();
-    let mut out = say::out();
     if options.json {
-        writeln!(out, "{}", serde_json::to_string_pretty(&report)?)?;
-        return Ok(());
+        writeln!(say::out(), "{}", serde_json::to_string_pretty(&report)?)?;
+    } else {
+        print(&report)?;
     }
+    if let Some(manual) = &options.update {
+        reproduce::update(manual, &[(PART, &[table(&report)])])?;
+    }
+    Ok(())
+}
+
+fn print(report: &Report) -> Result<()> {
+    let mut out = say::out();
     writeln!(
         out,
         "one step of one body: {:.0} ns (consistent), {:.0} ns (separated)",
@@ -117,10 +137,87 @@ pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
     )?;
     writeln!(
         out,
-        "turbulence, {CELLS}^3 cells: {:.1} million cell updates a second",
-        1e-6 * report.turbulence_cells_per_s
+        "turbulence: {:.1} million cell updates a second at 64^3 cells, {:.2} ms a step of 32 x 32 x 8",
+        1e-6 * report.turbulence_cells_per_s,
+        report.turbulence_paper_ms
     )?;
     Ok(())
+}
+
+/// The figures as the manual has them, beside those of the paper and what they are to stay below, or above.
+fn table(report: &Report) -> Table {
+    let microseconds = |ns: f64, digits: usize| format!("{:.digits$} us", 1e-3 * ns);
+    let of_many =
+        |double: f64, single: f64| format!("{} ({:.3})", microseconds(double, 3), 1e-3 * single);
+    let steps = paper::TABLE_2.map(|row| row.4);
+    let [least, most] = [
+        steps.iter().copied().fold(f64::INFINITY, f64::min),
+        steps.iter().copied().fold(0.0, f64::max),
+    ];
+    let rows = [
+        [
+            "step of one body, <code>consistent</code>, default integrator",
+            &format!("{:.1} to {:.1} ms", 1e3 * least, 1e3 * most),
+            &microseconds(report.step, 2),
+            "0.30 us",
+        ],
+        [
+            "of many, a body on one core (single precision)",
+            "",
+            &of_many(report.step_batch, report.step_batch_f32),
+            "0.06 us",
+        ],
+        [
+            "all cores over one",
+            "",
+            &format!(
+                "{:.2} times ({} cores)",
+                report.batch_scaling, report.threads
+            ),
+            "1.9 times (2 cores)",
+        ],
+        [
+            "step of one body, <code>separated</code>",
+            "",
+            &microseconds(report.step_separated, 2),
+            "0.65 us",
+        ],
+        [
+            "of many, a body on one core (single precision)",
+            "",
+            &of_many(report.step_separated_batch, report.step_separated_batch_f32),
+            "0.14 us",
+        ],
+        [
+            "added mass, 1280 triangles",
+            &format!("{:.0} ms", 1e3 * paper::ADDED_MASS_SECONDS),
+            &format!("{:.1} ms", report.added_mass_1280_ms),
+            "20 ms",
+        ],
+        [
+            "added mass, 5120 triangles",
+            "",
+            &format!("{:.2} s", 1e-3 * report.added_mass_5120_ms),
+            "0.4 s",
+        ],
+        [
+            "turbulence, whole steps at 64^3",
+            "",
+            &format!(
+                "{:.0} million cells/s",
+                1e-6 * report.turbulence_cells_per_s
+            ),
+            "20 million cells/s",
+        ],
+        [
+            "turbulence, a step of 32 x 32 x 8 cells",
+            &format!("{:.0} ms", 1e3 * paper::TURBULENCE_SECONDS),
+            &format!("{:.2} ms", report.turbulence_paper_ms),
+            "",
+        ],
+    ]
+    .map(|row| row.map(str::to_owned).to_vec());
+    Table::new("main", &["", "paper (2013, desktop)", "here", "aim"], &rows)
 }
 
 /// Nanoseconds a step of a built-in scene's body.
@@ -182,10 +279,11 @@ fn added_mass_ms(triangles: usize, bars: &Bars) -> Result<f64> {
     Ok(1e3 * seconds)
 }
 
-fn turbulence_cells_per_s(bars: &Bars) -> Result<f64> {
+/// Seconds a step of a flow on so many cells.
+fn turbulence_seconds(cells: [usize; 3], bars: &Bars) -> Result<f64> {
     let sides = [Boundary::Walls, Boundary::Through, Boundary::Walls];
-    let size = 1.0 / CELLS as f64;
-    let mut grid = MacGrid::new([CELLS; 3], size, sides)?;
+    let size = 1.0 / cells[0] as f64;
+    let mut grid = MacGrid::new(cells, size, sides)?;
     // A vortex in a stream: uniform flow would be too easy.
     grid.set_velocity(|[x, y, _]| {
         let turn = std::f64::consts::PI;
@@ -193,8 +291,7 @@ fn turbulence_cells_per_s(bars: &Bars) -> Result<f64> {
         [0.3 * x.sin() * y.cos(), 1.0 - 0.3 * x.cos() * y.sin(), 0.0]
     });
     let mut flow = TurbulentFlow::new(grid, Turbulence::at_birth(1.0, size))?;
-    let seconds = median(FEW, "turbulence", bars, |_| Ok(flow.step(size)?))?;
-    Ok((CELLS * CELLS * CELLS) as f64 / seconds)
+    median(FEW, "turbulence", bars, |_| Ok(flow.step(size)?))
 }
 
 /// Median seconds of `work`, after one untimed round.
@@ -218,4 +315,42 @@ fn median(
     seconds.sort_by(f64::total_cmp);
     let middle = seconds.get(repeats / 2);
     middle.copied().ok_or_else(|| anyhow!("nothing was timed"))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn the_manual_has_a_place_for_the_table() {
+        let report = Report {
+            version: "",
+            threads: 2,
+            step: 280.0,
+            step_batch: 37.0,
+            step_separated: 810.0,
+            step_separated_batch: 102.0,
+            step_batch_f32: 21.0,
+            step_separated_batch_f32: 55.0,
+            batch_scaling: 1.97,
+            added_mass_1280_ms: 15.1,
+            added_mass_5120_ms: 160.0,
+            turbulence_cells_per_s: 32e6,
+            turbulence_paper_ms: 0.49,
+            table2: Default::default(),
+        };
+        let manual = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+        let mut places = 0;
+        for page in pages::list(&manual).unwrap() {
+            let text = std::fs::read_to_string(&page).unwrap();
+            let ours = pages::marks(&text).filter(|mark| mark.starts_with("bench/"));
+            places += ours.count();
+            pages::replaced(&text, &[(PART, &[table(&report)])]).unwrap();
+        }
+        assert_eq!(places, 1);
+    }
 }

@@ -1,10 +1,12 @@
 //! `langevin-rigid reproduce`
 
 use std::io::Write;
+use std::path::Path;
 
 use anyhow::Result;
 use langevin_rigid_formats::budget::Need;
 use langevin_rigid_formats::files::Claim;
+use langevin_rigid_report::pages::{self, Computed};
 use langevin_rigid_report::{Options, PARTS, Part};
 
 use crate::arguments::Reproduce;
@@ -24,6 +26,9 @@ pub(crate) fn reproduce(options: &Reproduce, bars: &Bars) -> Result<()> {
         cache: cache::folder(),
     };
     check(options)?;
+    if let Some(manual) = &options.update {
+        pages::list(manual)?;
+    }
     let _claim = Claim::folder(&options.out)?;
     let work = || langevin_rigid_report::reproduce(&plan, &options.out, bars);
     let report = bars.stoppable(work)?;
@@ -39,6 +44,22 @@ pub(crate) fn reproduce(options: &Reproduce, bars: &Bars) -> Result<()> {
         report.page.display(),
         names.join(", ")
     )?;
+    if let Some(manual) = &options.update {
+        let computed: Vec<Computed> = report
+            .sections
+            .iter()
+            .map(|section| (section.id, section.tables.as_slice()))
+            .collect();
+        update(manual, &computed)?;
+    }
+    Ok(())
+}
+
+/// Writes tables into the pages of a folder and says into which.
+pub(crate) fn update(manual: &Path, computed: &[Computed]) -> Result<()> {
+    for page in pages::update(manual, computed)? {
+        say::note(format!("updated {}", page.display()));
+    }
     Ok(())
 }
 

@@ -434,6 +434,42 @@ fn reproduce_writes_a_page_and_its_data() {
 }
 
 #[test]
+fn reproduce_updates_the_pages_of_a_manual() {
+    let place = Place::new();
+    let manual = place.path("manual");
+    std::fs::create_dir(&manual).unwrap();
+    let page = |name: &str| manual.join(name);
+    let marked =
+        |mark: &str| format!("Words.\n\n<!-- table: {mark} -->\nold\n<!-- end -->\nMore.\n");
+    std::fs::write(page("a.md"), marked("fig2/turbulence")).unwrap();
+    std::fs::write(page("b.md"), marked("coin/coin")).unwrap();
+    let run = || {
+        let only = ["reproduce", "--only", "fig2", "--seeds", "1", "--out", "r"];
+        place.run(&[only.as_slice(), &["--update", "manual"]].concat())
+    };
+    let outcome = run();
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    assert!(
+        outcome.err.contains("updated manual/a.md"),
+        "{}",
+        outcome.err
+    );
+    let table = read(&place.path("r/fig2/turbulence.md"));
+    assert!(table.starts_with("| where |"), "{table}");
+    let wanted = marked("fig2/turbulence").replace("old\n", &table);
+    assert_eq!(read(&page("a.md")), wanted);
+    assert_eq!(read(&page("b.md")), marked("coin/coin"));
+
+    std::fs::write(page("b.md"), marked("fig2/other")).unwrap();
+    run().fails_with(&["manual/b.md", "`fig2/other`", "turbulence"]);
+    assert_eq!(read(&page("a.md")), wanted);
+
+    let nowhere = place.run(&["reproduce", "--only", "fig2", "--update", "nowhere"]);
+    nowhere.fails_with(&["cannot read `nowhere`"]);
+    assert!(!place.path("out").exists(), "said before the work");
+}
+
+#[test]
 fn bench_prints_a_positive_figure_for_each_of_its_names() {
     let outcome = Place::new().run(&["bench", "--json"]);
     assert_eq!(outcome.code, 0, "{}", outcome.err);
@@ -450,6 +486,7 @@ fn bench_prints_a_positive_figure_for_each_of_its_names() {
         "added_mass_1280_ms",
         "added_mass_5120_ms",
         "turbulence_cells_per_s",
+        "turbulence_paper_ms",
     ] {
         assert!(positive(&figures[name]), "{name}");
     }

@@ -123,5 +123,5 @@ fn table(section: &mut Section, statistics: &Statistics) {
     ] {
         row(words.to_owned(), key, measured, here.unwrap_or(f64::NAN));
     }
-    section.table(&["cm", "measured", "here"], &rows);
+    section.table("coin", &["cm", "measured", "here"], &rows);
 }

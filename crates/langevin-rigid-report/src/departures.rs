@@ -179,6 +179,7 @@ fn units(
         rows.push(row);
     }
     section.table(
+        "units",
         &[
             "model",
             "5 ms (the paper's)",
@@ -242,7 +243,11 @@ fn decaying_turbulence(
         &Chart::new("time (s)", "downward speed (m/s)", curves),
         "",
     )]);
-    section.table(&["turbulence", "1 s (m/s)", "2 s", "5 s", "10 s"], &rows);
+    section.table(
+        "decay",
+        &["turbulence", "1 s (m/s)", "2 s", "5 s", "10 s"],
+        &rows,
+    );
     Ok(())
 }
 
@@ -341,7 +346,7 @@ fn spin(
         &Chart::new("time (s)", "spin, rms (rad/s)", curves),
         "",
     )]);
-    section.table(&["model", "0.1 s (rad/s)", "0.4 s", "1.6 s"], &rows);
+    section.table("spin", &["model", "0.1 s (rad/s)", "0.4 s", "1.6 s"], &rows);
     Ok(())
 }
 

@@ -497,7 +497,7 @@ fn tabulate(section: &mut Section, shown: &Shown, ensembles: &[Ensemble]) {
         }
         rows.push(row);
     }
-    section.table(&head, &rows);
+    section.table(shown.scene, &head, &rows);
 }
 
 /// A median with its spread.

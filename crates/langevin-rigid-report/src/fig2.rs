@@ -153,7 +153,7 @@ fn table(
         "epsilon (m\u{b2}/s\u{b3})",
         "closed form",
     ];
-    section.table(&head, &rows);
+    section.table("turbulence", &head, &rows);
     let worst = (0..=last)
         .map(|i| (at(particle, i).k / decayed(start, i as f64 * flow.time_step).k - 1.0).abs())
         .fold(0.0, f64::max);

@@ -23,7 +23,9 @@
 //! interruption costs the part under way and no more. A finished part is a [`Section`]: words, [`Numbers`], files, and a
 //! verdict on each [`Claim`] of the paper.
 //!
-//! - Every number is a result of the runs; what the paper and other sources state is in one place, `paper.rs`.
+//! - Every number is a result of the runs; what the paper states is in one place, [`paper`], what the validation
+//!   compares with in another, `references.rs`.
+//! - Tables are Markdown as well, and [`pages`] writes them into a manual.
 //! - Verdicts follow from the numbers by the rule that the page states.
 //! - Numbers depend on the options alone, but for wall-clock times. Units are SI in the data, and stated in the page.
 //! - What cannot be computed or written is a [`ReportError`].
@@ -37,13 +39,17 @@ mod html;
 mod machine;
 mod measures;
 mod numbers;
-mod paper;
+pub mod pages;
+pub mod paper;
+mod references;
 mod regimes;
 mod runs;
 mod section;
 mod showcase;
 mod spread;
+mod table;
 mod table2;
+mod validation;
 
 use std::path::{Path, PathBuf};
 
@@ -58,6 +64,7 @@ use langevin_rigid_scenes::scene::FindError;
 
 pub use numbers::Numbers;
 pub use section::{Claim, Section};
+pub use table::Table;
 
 /// What to compute.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,6 +124,10 @@ pub const PARTS: &[Part] = &[
     Part {
         name: "showcase",
         compute: showcase::section,
+    },
+    Part {
+        name: "validation",
+        compute: validation::section,
     },
 ];
 
@@ -229,6 +240,10 @@ fn write(options: &Options, folder: &Path, report: &Report) -> Result<(), Report
         let place = folder.join(section.id);
         for (name, content) in &section.files {
             files::write(&place.join(name), content)?;
+        }
+        for table in &section.tables {
+            let name = format!("{}.md", table.name);
+            files::write(&place.join(name), table.markdown.as_bytes())?;
         }
         let json = section.numbers.json().map_err(ReportError::Json)?;
         files::write(&place.join("numbers.json"), json.as_bytes())?;

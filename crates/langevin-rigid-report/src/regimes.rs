@@ -53,6 +53,7 @@ pub(crate) fn section(_: &Options, progress: &dyn Progress) -> Result<Section, R
     let figure = section.picture("map", &map, "Regimes over Reynolds number and inertia.")?;
     section.row(&[figure]);
     section.table(
+        "agreement",
         &[
             "plates",
             "compared points",

@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use langevin_rigid_pictures::Picture;
 
-use crate::ReportError;
 use crate::chart::{Chart, escape};
 use crate::html::png_uri;
 use crate::numbers::{Numbers, Quoted};
+use crate::{ReportError, Table};
 
 /// One result of the paper, computed again.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +22,8 @@ pub struct Section {
     pub numbers: Numbers,
     /// Its data: names and contents of files.
     pub files: Vec<(String, Vec<u8>)>,
+    /// Its tables, which are data as well: NAME.md.
+    pub tables: Vec<Table>,
     /// What the paper says in words.
     pub claims: Vec<Claim>,
 }
@@ -43,6 +45,7 @@ impl Section {
             html: String::new(),
             numbers: Numbers::default(),
             files: Vec::new(),
+            tables: Vec::new(),
             claims: Vec::new(),
         }
     }
@@ -78,8 +81,9 @@ impl Section {
         self.claims.push(claim);
     }
 
-    /// A table; cells are HTML.
-    pub(crate) fn table(&mut self, head: &[&str], rows: &[Vec<String>]) {
+    /// A table; cells are HTML. It is kept with the data as `name`.md.
+    pub(crate) fn table(&mut self, name: &str, head: &[&str], rows: &[Vec<String>]) {
+        self.tables.push(Table::new(name, head, rows));
         let cells = |tag: &str, cells: &[String]| -> String {
             let cell = |c: &String| format!("<{tag}>{c}</{tag}>");
             let row: String = cells.iter().map(cell).collect();

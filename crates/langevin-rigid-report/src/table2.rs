@@ -92,7 +92,7 @@ fn steps(
         "times faster",
         "here, separated",
     ];
-    section.table(&head, &rows);
+    section.table("steps", &head, &rows);
     let limit = section.quote("paper.limit", 1e3 * paper::STEP_LIMIT_SECONDS, 2);
     let slowest = medians.iter().copied().fold(0.0, f64::max);
     let fastest = medians.iter().copied().fold(f64::INFINITY, f64::min);
@@ -171,7 +171,11 @@ fn precomputation(section: &mut Section, progress: &dyn Progress) -> Result<(), 
             turbulence.median,
         ),
     ];
-    section.table(&["precomputation", "paper", "here, median"], &rows);
+    section.table(
+        "precomputation",
+        &["precomputation", "paper", "here, median"],
+        &rows,
+    );
     Ok(())
 }
 

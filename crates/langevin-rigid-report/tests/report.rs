@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_report::{Options, PARTS, Part, Report, reproduce};
+use langevin_rigid_report::{Options, PARTS, Part, Report, pages, reproduce};
 
 struct Made {
     folder: tempfile::TempDir,
@@ -291,4 +291,74 @@ fn an_interrupted_report_keeps_what_is_finished_and_says_so() {
     assert!(page.contains("Not finished: fig4, fig5") && page.contains("<section id=\"fig3\">"));
     assert!(folder.path().join("fig3/numbers.json").exists());
     assert!(!folder.path().join("fig4").exists());
+}
+
+#[test]
+fn tables_are_kept_as_markdown() {
+    let made = made();
+    let mut kept = 0;
+    for section in &made.report.sections {
+        let mut names: Vec<&str> = section.tables.iter().map(|t| t.name.as_str()).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), section.tables.len(), "{}", section.id);
+        for table in &section.tables {
+            let path = made.folder.path().join(section.id);
+            let text = std::fs::read_to_string(path.join(format!("{}.md", table.name))).unwrap();
+            assert_eq!(text, table.markdown);
+            assert!(!text.contains("<data") && !text.contains("&lt;"), "{text}");
+            let columns = |line: &str| line.replace("\\|", "").matches('|').count();
+            let mut lines = text.lines().map(columns);
+            let head = lines.next().unwrap();
+            assert!(
+                lines.clone().count() > 1 && lines.all(|n| n == head),
+                "{text}"
+            );
+            kept += 1;
+        }
+    }
+    assert!(kept >= 15, "{kept}");
+}
+
+#[test]
+fn every_table_of_the_manual_is_one_of_a_part() {
+    let manual = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    let sections = &made().report.sections;
+    let computed: Vec<pages::Computed> = sections
+        .iter()
+        .map(|section| (section.id, section.tables.as_slice()))
+        .collect();
+    let mut seen = 0;
+    for page in pages::list(&manual).unwrap() {
+        let text = std::fs::read_to_string(&page).unwrap();
+        pages::replaced(&text, &computed).unwrap();
+        for mark in pages::marks(&text) {
+            let (part, _) = mark.split_once('/').unwrap();
+            // The command's own, which its tests look for.
+            assert!(part == "bench" || Part::named(part).is_ok(), "{mark}");
+            seen += 1;
+        }
+    }
+    assert!(seen >= 6, "{seen}");
+}
+
+#[test]
+fn the_precomputation_is_near_what_it_is_compared_with() {
+    for (key, value) in raw(made().folder.path(), "validation") {
+        let limit = match key.split('.').nth(1) {
+            Some("ellipsoid") => 0.5,
+            Some("box")
+                if [".translation.", ".rotation."]
+                    .iter()
+                    .any(|motion| key.contains(motion))
+                    && !key.ends_with("wanted") =>
+            {
+                0.5
+            }
+            Some("decay") if key.ends_with("difference") => 1e-12,
+            Some("shear") if key.ends_with("difference") => 1e-9,
+            _ => continue,
+        };
+        assert!(value.abs() < limit, "{key}: {value}");
+    }
 }
