@@ -136,7 +136,7 @@ fn ellipsoids_are_as_baked() {
         [0.01, 0.3, 0.002],
     ] {
         let body = Body::ellipsoid(semi_axes, DENSITY).unwrap();
-        errors.compare(&body, Shape::Ellipsoid { semi_axes }, 1280);
+        errors.compare(&body, Shape::Ellipsoid { semi_axes }, 5120);
     }
     errors.assert(&[
         ("translational added mass", 0.002),
@@ -195,7 +195,9 @@ fn boxes_are_as_baked() {
         [0.08, 0.1, 0.35],
     ] {
         let body = Body::cuboid(size, DENSITY).unwrap();
-        errors.compare(&body, Shape::Box { size }, 1280);
+        // The edges of a long lath of few triangles are coarse.
+        let triangles = if size.contains(&0.004) { 5000 } else { 1280 };
+        errors.compare(&body, Shape::Box { size }, triangles);
     }
     for [length, width, thickness] in [
         [0.1, 0.1, 0.001],

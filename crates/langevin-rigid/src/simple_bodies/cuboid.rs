@@ -102,5 +102,6 @@ fn drag_areas(size: Vec3, added_mass: Vec3) -> Vec3 {
 /// pressure.
 fn drag_coefficient([a, b]: [f64; 2], depth: f64) -> f64 {
     let windward = 0.6175 + 0.1111 * depth / (depth + 0.054 * a) - 0.0165 * libm::log(b / a);
-    base_suction(b / a) + windward
+    // A long body has but a small share of its surface at its edges: the suction of one without.
+    base_suction(b / a) / (1.0 + depth / (28.0 * (a * b).sqrt())) + windward
 }

@@ -76,8 +76,8 @@ fn added_mass(l: f64) -> [f64; 3] {
 fn drag_coefficients(l: f64) -> [f64; 2] {
     let aspect = (0.5 * l).max(2.0 / l);
     let side = 0.1419 + 0.322 / (1.0 + (l / 3.074).sqrt());
-    [
-        base_suction(1.0) + 0.6024 + 0.1212 * l / (l + 0.0969),
-        base_suction(aspect) + side,
-    ]
+    // A long body has but a small share of its surface at its edges: the suction of one without.
+    let end_on = base_suction(1.0) / (1.0 + l / 80.0);
+    let across = base_suction(aspect) * (1.0 - 0.114 * l * l / (l * l + 50.0));
+    [end_on + 0.6024 + 0.1212 * l / (l + 0.0969), across + side]
 }
