@@ -190,7 +190,7 @@ fn strobe(path: &Path, motion: MotionClass, case: &Case) -> Result<()> {
             orientation: s.orientation,
         })
         .collect();
-    let surface = case.body().surface;
+    let surface = case.plate.drawn(&case.body());
     let subject = Subject {
         vertices: &surface.vertices,
         triangles: &surface.triangles,

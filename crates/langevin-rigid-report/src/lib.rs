@@ -31,6 +31,7 @@
 //! - What cannot be computed or written is a [`ReportError`].
 
 mod chart;
+mod closure;
 mod coin;
 mod departures;
 mod falls;
@@ -124,6 +125,10 @@ pub const PARTS: &[Part] = &[
     Part {
         name: "showcase",
         compute: showcase::section,
+    },
+    Part {
+        name: "closure",
+        compute: closure::section,
     },
     Part {
         name: "validation",

@@ -11,6 +11,6 @@ mod survey;
 
 pub use fall::{Case, Run, run};
 pub use map::regime_map;
-pub use plates::{Plate, stepper, terminal_speed};
+pub use plates::{Plate, broadside_speed, stepper};
 pub use published::{Boundary, Measured, Published, UNCERTAINTY};
 pub use survey::{Agreement, Point, REYNOLDS, TILTS, cases, csv, inertia_ratios, points};

@@ -8,7 +8,7 @@
 
 use langevin_rigid::linalg::quat_from_rotation_vector;
 use langevin_rigid::{Body, Input, State};
-use langevin_rigid_scenes::regimes::{Plate, stepper, terminal_speed};
+use langevin_rigid_scenes::regimes::{Plate, broadside_speed, stepper};
 
 /// One fall: the thin axis' turn about z from level, unwrapped, and the velocity, sampled.
 struct Fall {
@@ -19,7 +19,7 @@ struct Fall {
 
 fn fall(body: &Body, viscosity: f64, tilt: f64) -> Fall {
     let stepper = stepper(body, viscosity).unwrap();
-    let dt = 0.02 / terminal_speed(body);
+    let dt = 0.02 / broadside_speed(body, f64::INFINITY);
     let mut state = State {
         orientation: quat_from_rotation_vector([0.0, 0.0, tilt.to_radians()]),
         ..State::default()
@@ -111,7 +111,7 @@ fn at_low_reynolds_number_small_disturbances_die_out() {
     // Steady below Re of about 100: here 30, on the diameter.
     for inertia in [0.004, 0.03] {
         let disc = Plate::Disc.body(inertia, 0.015);
-        let viscosity = terminal_speed(&disc) / 30.0;
+        let viscosity = broadside_speed(&disc, 30.0) / 30.0;
         let end = fall(&disc, viscosity, 3.0);
         assert_eq!(regime(&end), 'S', "I* {inertia}");
     }

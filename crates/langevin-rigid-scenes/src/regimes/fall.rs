@@ -8,7 +8,7 @@ use langevin_rigid_bake::progress::Progress;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::plates::{Plate, stepper, terminal_speed};
+use super::plates::{Plate, broadside_speed, stepper};
 use crate::ensemble::MotionTracker;
 
 /// Steps in the time d/U.
@@ -24,7 +24,7 @@ const PATIENCE: u64 = 4096;
 pub struct Case {
     /// What falls.
     pub plate: Plate,
-    /// Reynolds number on diameter or chord and [`terminal_speed`].
+    /// Reynolds number on diameter or chord and the speed of a broadside fall.
     pub reynolds: f64,
     /// I*.
     pub inertia_ratio: f64,
@@ -44,7 +44,8 @@ pub struct Run {
 impl Case {
     /// The body that falls.
     pub fn body(&self) -> Body {
-        self.plate.body(self.inertia_ratio, self.plate.thickness())
+        let thickness = self.plate.thickness_at(self.inertia_ratio);
+        self.plate.body(self.inertia_ratio, thickness)
     }
 
     /// The states of the second half of the fall, up to `lengths` diameters of path from the middle.
@@ -85,7 +86,7 @@ struct Falls {
 impl Falls {
     fn of(case: &Case) -> Result<Self, SetupError> {
         let body = case.body();
-        let speed = terminal_speed(&body);
+        let speed = broadside_speed(&body, case.reynolds);
         let starting = body.mass / body.separation.drag_area[1][1];
         Ok(Self {
             stepper: stepper(&body, speed / case.reynolds)?,

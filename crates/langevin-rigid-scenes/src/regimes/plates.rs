@@ -50,6 +50,25 @@ impl Plate {
         }
     }
 
+    /// The same of a plate with this I*, thinner where it would not be 2.5 times as dense as the fluid.
+    pub fn thickness_at(self, inertia_ratio: f64) -> f64 {
+        const DENSITY_RATIO: f64 = 2.5;
+        let thinner = match self {
+            Self::Disc => inertia_ratio * 64.0 / (PI * DENSITY_RATIO),
+            Self::Strip => inertia_ratio / DENSITY_RATIO,
+        };
+        thinner.min(self.thickness())
+    }
+
+    /// What a picture shows of a plate of [`Plate::body`]: all of a disc, a piece of a strip.
+    pub fn drawn(self, body: &Body) -> Surface {
+        let [_, a, b] = body.half_extents;
+        match self {
+            Self::Disc => body.surface.clone(),
+            Self::Strip => strip_surface(a, b, DRAWN_SPAN),
+        }
+    }
+
     /// The body of diameter or chord 1 with this I*; `thickness` in the same unit.
     pub fn body(self, inertia_ratio: f64, thickness: f64) -> Body {
         match self {
@@ -59,13 +78,12 @@ impl Plate {
     }
 }
 
-/// Terminal speed of a plate of [`Plate::body`] that falls broadside by its pressure drag alone:
-/// sqrt(2 (m - rho V) g / (rho P_yy)).
-///
-/// Not a number for a plate lighter than the fluid. Reynolds numbers of the map are on this speed.
-pub fn terminal_speed(body: &Body) -> f64 {
+/// Terminal speed of a plate of [`Plate::body`] that falls broadside at this Reynolds number, with its viscous resistance:
+/// the speed that experiments put into the number. Not a number for a plate lighter than the fluid.
+pub fn broadside_speed(body: &Body, reynolds: f64) -> f64 {
     let weight = (body.mass - body.volume) * -GRAVITY[1];
-    (2.0 * weight / body.separation.drag_area[1][1]).sqrt()
+    let pressure = 0.5 * body.separation.drag_area[1][1];
+    (weight / (pressure + body.separation.stokes_translation[1][1] * body.length / reynolds)).sqrt()
 }
 
 /// A stepper for a plate of [`Plate::body`] in fluid at rest of this kinematic viscosity, on the plate's scale: the model
@@ -161,7 +179,7 @@ fn strip(inertia_ratio: f64, h: f64) -> Body {
             stokes_rotation: diagonal([0.0, 0.0, 2.0 * PI * (a * a + b * b) * SPAN]),
         },
         slices: vec![],
-        surface: strip_surface(a, b),
+        surface: strip_surface(a, b, SPAN),
     }
 }
 
@@ -196,8 +214,8 @@ fn disc_surface(r: f64, h: f64) -> Surface {
     prism(ring(0.5 * h).chain(ring(-0.5 * h)).collect())
 }
 
-fn strip_surface(a: f64, b: f64) -> Surface {
-    let z = 0.5 * DRAWN_SPAN;
+fn strip_surface(a: f64, b: f64, span: f64) -> Surface {
+    let z = 0.5 * span;
     let ring = |y: f64| [[a, y, z], [a, y, -z], [-a, y, -z], [-a, y, z]];
     prism(ring(b).into_iter().chain(ring(-b)).collect())
 }
@@ -259,7 +277,7 @@ mod tests {
 
     #[test]
     fn surfaces_are_closed_and_have_the_volume_of_the_body() {
-        for (plate, share) in [(Plate::Disc, 1.0), (Plate::Strip, DRAWN_SPAN / SPAN)] {
+        for plate in Plate::ALL {
             let body = plate.body(1.0, 0.1);
             let corner = |t: &[u32; 3], k: usize| body.surface.vertices[t[k] as usize];
             let volume: f64 = body
@@ -268,7 +286,7 @@ mod tests {
                 .iter()
                 .map(|t| dot(corner(t, 0), cross(corner(t, 1), corner(t, 2))) / 6.0)
                 .sum();
-            let error = volume / (share * body.volume) - 1.0;
+            let error = volume / body.volume - 1.0;
             // The polygon is 0.16 % smaller than the circle.
             assert!(error.abs() < 2e-3, "{plate:?}: {error}");
         }

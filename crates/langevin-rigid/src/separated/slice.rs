@@ -50,8 +50,6 @@ struct Damping<F: Symmetry, R: Real> {
     spinning: F::Block<R>,
     /// c_0 Dl / L (kg m): by V.
     passing: F::Block<R>,
-    /// X, twice the geometric mean of the latter and of the Stokes resistance: by the root of V.
-    between: F::Block<R>,
 }
 
 impl SliceClosure {
@@ -82,7 +80,7 @@ impl SliceClosure {
                 &shifted(&translation, -1.0, trace(&translation)),
             ),
             tips: scaled(8.0 * density * per_largest, &slice.rotation),
-            damping: Damping::new(slice, body, &own, density, viscosity, constants),
+            damping: Damping::new(slice, body, &own, density, constants),
             least_drag,
             drag: shifted(&drag_area, 1.0, -least_drag),
             rise: round_rise(body),
@@ -108,7 +106,6 @@ impl SliceClosure {
             damping: Damping {
                 spinning: block(&self.damping.spinning),
                 passing: block(&self.damping.passing),
-                between: block(&self.damping.between),
             },
             least_drag: like.of(self.least_drag),
             drag: block(&self.drag),
@@ -181,14 +178,12 @@ impl Damping<General, f64> {
         body: &Body,
         own: &Mat3,
         density: f64,
-        viscosity: f64,
         constants: &SeparatedFlow,
     ) -> Self {
         let (rotation, axes) = eigen_symmetric(&slice.rotation);
         let axis = |i: usize| -> Vec3 { std::array::from_fn(|k| axes[k][i % 3]) };
         let along = |m: &Mat3, i: usize| dot(axis(i), mat_vec(m, axis(i)));
-        let slices = body.slices.len().max(1) as f64;
-        let mut diagonals = [[0.0; 3]; 3];
+        let mut diagonals = [[0.0; 3]; 2];
         for i in 0..3 {
             let larger = |m: &Mat3| along(m, i + 1).max(along(m, i + 2));
             let smaller = |m: &Mat3| along(m, i + 1).min(along(m, i + 2));
@@ -201,22 +196,16 @@ impl Damping<General, f64> {
             let edge = 1.0 - roundness;
             let passing =
                 constants.damping * (1.0 - ceiling * edge * edge * edge) * d / body.half_extents[1];
-            let stokes = density * viscosity * along(&body.separation.stokes_rotation, i) / slices;
             diagonals[0][i] = constants.rotational_damping * d;
             diagonals[1][i] = passing;
-            diagonals[2][i] = 2.0 * (passing * stokes.max(0.0)).sqrt();
         }
         let tensor = |d: Vec3| -> Mat3 {
             std::array::from_fn(|k| {
                 std::array::from_fn(|l| (0..3).map(|i| d[i] * axis(i)[k] * axis(i)[l]).sum())
             })
         };
-        let [spinning, passing, between] = diagonals.map(tensor);
-        Self {
-            spinning,
-            passing,
-            between,
-        }
+        let [spinning, passing] = diagonals.map(tensor);
+        Self { spinning, passing }
     }
 }
 
@@ -427,23 +416,19 @@ impl<F: Symmetry, R: Real> Damping<F, R> {
     fn torque(&self, stream: &Stream<R>) -> Vec3<R> {
         let omega = stream.omega;
         add(
-            add(
-                scale(stream.relief * stream.spin, self.spinning.times(omega)),
-                scale(stream.speed, self.passing.times(omega)),
-            ),
-            scale(stream.root, self.between.times(omega)),
+            scale(stream.relief * stream.spin, self.spinning.times(omega)),
+            scale(stream.speed, self.passing.times(omega)),
         )
     }
 
     #[inline(always)]
     fn tensor(&self, stream: &Stream<R>) -> Mat3<R> {
         let mut sum = self.spinning.matrix();
-        let (passing, between) = (self.passing.matrix(), self.between.matrix());
+        let passing = self.passing.matrix();
         let spun = stream.relief * stream.spin;
         for i in 0..3 {
             for j in 0..3 {
-                sum[i][j] =
-                    spun * sum[i][j] + stream.speed * passing[i][j] + stream.root * between[i][j];
+                sum[i][j] = spun * sum[i][j] + stream.speed * passing[i][j];
             }
         }
         sum
@@ -482,7 +467,6 @@ impl SliceClosure {
             &mut self.tips,
             &mut self.damping.spinning,
             &mut self.damping.passing,
-            &mut self.damping.between,
             &mut self.drag,
             &mut self.extents,
             &mut self.body_extents,

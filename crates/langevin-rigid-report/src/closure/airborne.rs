@@ -1,0 +1,96 @@
+//! Bodies of the built-in scenes beside what was measured of their kind.
+
+use langevin_rigid::{NoiseStream, State};
+use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_scenes::prepared::Prepared;
+use langevin_rigid_scenes::scene;
+
+use super::drop::{fall, mean, median};
+use crate::section::Section;
+use crate::{Options, ReportError};
+
+/// Seeds of each scene.
+const SEEDS: u64 = 10;
+
+pub(super) fn airborne(
+    section: &mut Section,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<(), ReportError> {
+    section.heading("Seeds");
+    section.text(format!(
+        "The scene <i>maple-seed</i>, over {SEEDS} seeds of the noise, spun and from rest: medians over the second half of 4 s of \
+         fall; measured ones are of Azuma &amp; Yasuda (1989) and Norberg (1973)."
+    ));
+    let prepared = Prepared::new(
+        scene::find("maple-seed")?,
+        options.cache.as_deref(),
+        progress,
+    )?;
+    let mut rows = Vec::new();
+    for (name, spun) in [("shed on a spin", true), ("from rest", false)] {
+        let falls: Vec<[f64; 4]> = (0..SEEDS)
+            .map(|seed| seed_fall(&prepared, spun, seed))
+            .collect();
+        let of = |k: usize| median(falls.iter().map(|f| f[k]).collect());
+        let spinning = falls.iter().filter(|f| f[0] > 5.0).count();
+        let mut row = vec![name.to_owned()];
+        for (k, what) in ["turns", "sink", "cone", "roll"].into_iter().enumerate() {
+            let key = format!("seed.{name}.{what}");
+            row.push(section.quote(key, of(k), 3).to_string());
+        }
+        let key = format!("seed.{name}.spinning");
+        row.push(section.quote(key, spinning as f64, 0).to_string());
+        rows.push(row);
+    }
+    let measured = ["measured", "15 to 22", "1.0 to 1.3", "15 to 25", "0", "all"];
+    rows.push(measured.map(str::to_owned).to_vec());
+    let head = [
+        "release",
+        "turns/s",
+        "sinks, m/s",
+        "cone, degrees",
+        "turns/s about the span beside the cone's",
+        "spin, of ten",
+    ];
+    section.table("seeds", &head, &rows);
+    Ok(())
+}
+
+/// Turns a second about the vertical, speed of sinking (m/s), angle of the span above level (degrees), and turns a second
+/// about the span beyond those that the cone brings.
+fn seed_fall(prepared: &Prepared, spun: bool, seed: u64) -> [f64; 4] {
+    let scene = prepared.scene();
+    let mut release = scene.release;
+    if !spun {
+        release = State {
+            angular_velocity: [0.0; 3],
+            ..release
+        };
+    }
+    let noise = NoiseStream { seed, body: 0 };
+    let steps = (4.0 / scene.time_step) as u32;
+    let states = fall(
+        prepared.stepper(),
+        release,
+        scene.time_step,
+        steps,
+        noise,
+        |_| false,
+    );
+    let late = &states[states.len() / 2..];
+    let turn = std::f64::consts::TAU;
+    let about = mean(late.iter().map(|s| s.world_angular_velocity()[1])) / turn;
+    let sink = -mean(late.iter().map(|s| s.world_velocity()[1]));
+    let rise = mean(late.iter().map(|s| {
+        let span = langevin_rigid::linalg::rotation_matrix(s.orientation)[1][0];
+        libm::asin(span.clamp(-1.0, 1.0))
+    }));
+    let roll = mean(late.iter().map(|s| s.angular_velocity[0])) / turn;
+    [
+        about.abs(),
+        sink,
+        rise.to_degrees(),
+        roll - about * libm::sin(rise),
+    ]
+}
