@@ -166,3 +166,6 @@ impl Region {
         check_positive("density of a region", density, "kg/m³")
     }
 }
+
+#[cfg(test)]
+mod tests;
