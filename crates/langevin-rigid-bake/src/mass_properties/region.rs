@@ -109,14 +109,13 @@ impl Parts {
                 let outside = |corners| without(corners, &later.corners());
                 boxes.into_iter().flat_map(outside).collect()
             });
-            let part =
-                moments_within(mesh, middle, &boxes).ok_or_else(|| MassError::EmptyRegion {
-                    region: i,
-                    from: region.from,
-                    to: region.to,
-                    low,
-                    high,
-                })?;
+            let part = moments_within(mesh, middle, &boxes).ok_or(MassError::EmptyRegion {
+                region: i,
+                from: region.from,
+                to: region.to,
+                low,
+                high,
+            })?;
             rest.add(-1.0, &part);
             within.push((region.density, part));
         }
