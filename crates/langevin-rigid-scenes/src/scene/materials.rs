@@ -124,7 +124,7 @@ mod tests {
     use langevin_rigid_bake::body::{BodyBakeError, mass_properties};
 
     use crate::baking::{self, SceneBakeError};
-    use crate::scene::{Scene, SceneError};
+    use crate::scene::{Scene, SceneError, find};
 
     /// A scene of a box with these lines in its body.
     fn parse(body: &str) -> Result<Scene, SceneError> {
@@ -280,5 +280,53 @@ mod tests {
                 .to_string()
                 .contains("nothing of the body is in region 1")
         );
+    }
+
+    #[test]
+    fn the_airplane_weighs_where_its_sheet_is_folded() {
+        let scene = find("airplane").unwrap();
+        let (mesh, _) = baking::mesh(&scene).unwrap();
+        let mass = mass_properties(&mesh, &scene.body.spec).unwrap();
+        let side = 0.083;
+        let sheet = 800.0 * side * side * 1e-4;
+        assert!((mass.mass / sheet - 1.0).abs() < 1e-3, "{}", mass.mass);
+        // Each sector of the half sheet, out to its rear or its side edge, turned to where it is folded.
+        let fold = std::f64::consts::PI / 16.0;
+        let sectors = 10_000;
+        let (mut area, mut first) = (0.0, 0.0);
+        for sector in 0..sectors {
+            let angle = (f64::from(sector) + 0.5) * 8.0 * fold / f64::from(sectors);
+            let reach = (1.0 / angle.cos()).min(0.5 / angle.sin());
+            let folded = (angle % (4.0 * fold) - 2.0 * fold).abs() - fold;
+            area += reach * reach;
+            first += reach * reach * 2.0 / 3.0 * reach * folded.cos();
+        }
+        let nose = mesh.bounding_box()[1][0];
+        let behind_nose = (nose - mass.centre_of_mass[0]) / side;
+        assert!((behind_nose - first / area).abs() < 0.005, "{behind_nose}");
+    }
+
+    #[test]
+    fn the_maple_seed_weighs_as_its_nut_vein_and_blade() {
+        let scene = find("maple-seed").unwrap();
+        let (mesh, _) = baking::mesh(&scene).unwrap();
+        let mass = mass_properties(&mesh, &scene.body.spec).unwrap();
+        assert!((mass.mass / 5.6e-5 - 1.0).abs() < 0.005, "{}", mass.mass);
+        // What an earlier estimate of the three gave.
+        for (x, estimate) in mass.centre_of_mass.iter().zip([-0.00165, 0.0, 0.000821]) {
+            assert!((x - estimate).abs() < 1e-4, "{mass:?}");
+        }
+        let estimate = [
+            (0, 0, 3.119e-10),
+            (1, 1, 4.609e-9),
+            (2, 2, 4.349e-9),
+            (0, 2, 2.953e-10),
+        ];
+        for (i, j, estimate) in estimate {
+            assert!(
+                (mass.inertia[i][j] / estimate - 1.0).abs() < 0.05,
+                "{mass:?}"
+            );
+        }
     }
 }
