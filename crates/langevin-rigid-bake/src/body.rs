@@ -25,7 +25,7 @@ use crate::separation::{separation, slices};
 /// };
 /// let mass = mass_properties(&pencil, &spec)?;
 /// assert!((mass.mass - 5.195e-3).abs() < 1e-6);
-/// assert!((mass.centre_of_mass[0] - 0.01797).abs() < 1e-5);
+/// assert!((mass.centre_of_mass[0] - 0.01796).abs() < 1e-5);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -56,8 +56,11 @@ fn clip(whole: Tetrahedron, corners: &Corners, parts: &mut Vec<Tetrahedron>) {
     }
     parts.push(whole);
     for k in 0..3 {
-        for (corner, outward) in corners.iter().zip([-1.0, 1.0]) {
+        for (corner, (outward, outmost)) in corners.iter().zip([(-1.0, low), (1.0, high)]) {
             let depth = |p: &[f64; 3]| outward * (corner[k] - p[k]);
+            if depth(&outmost) >= 0.0 {
+                continue;
+            }
             *parts = parts.iter().flat_map(|part| cut(part, depth)).collect();
         }
     }

@@ -7,8 +7,8 @@ use super::place::{Document, SceneError};
 use super::quantity::{DENSITY, HOLE, MASS, PLACE};
 use super::raw::{Given, RawBallast, RawBody, RawRegion, given};
 
-/// Most regions of a body: each is cut out of every triangle's share of it.
-const MAX_REGIONS: usize = 64;
+/// Most regions of a body. The work grows faster than their number where they overlap.
+const MAX_REGIONS: usize = 32;
 
 /// Refuses a centre of mass or an inertia beside what makes them.
 pub(super) fn check_stated_once(doc: &Document, body: &RawBody) -> Result<(), SceneError> {
@@ -174,7 +174,7 @@ mod tests {
             )
         };
         let inertia = "inertia = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
-        let many = REGION.repeat(65);
+        let many = REGION.repeat(33);
         for (body, line, words) in [
             (
                 region("[0, 0, 0]", "[1, 1, nan]", "1"),
@@ -218,8 +218,8 @@ mod tests {
             ),
             (
                 format!("density = 1000\n{many}"),
-                263,
-                "at most 64 regions, and this one 65",
+                135,
+                "at most 32 regions, and this one 33",
             ),
             (
                 ballast("0", "[0, 0, 0]", "0"),
