@@ -4,22 +4,45 @@ use langevin_rigid::{Body, BodyError, Slice, Surface, shift_added_mass};
 
 use crate::added_mass::{AddedMass, AddedMassError, Options, added_mass};
 use crate::extents::{characteristic_thickness, half_extents};
-use crate::mass_properties::{MassError, MassProperties};
+use crate::mass_properties::{Ballast, MassError, MassProperties, Region};
 use crate::mesh::TriMesh;
 use crate::progress::Progress;
 use crate::separation::{separation, slices};
 
 /// What a body is made of, beside its surface. Absent values follow from the mesh.
+///
+/// ```
+/// use langevin_rigid_bake::body::{BodySpec, mass_properties};
+/// use langevin_rigid_bake::mass_properties::{Ballast, Region};
+/// use langevin_rigid_bake::shapes::Shape;
+/// // A pencil of wood, 18 cm, with a ferrule of brass and a rubber of 0.5 g at its end.
+/// let pencil = Shape::Cylinder { radius: 0.0035, height: 0.18 }.mesh(400)?;
+/// let spec = BodySpec {
+///     density: Some(600.0),
+///     regions: vec![Region { from: [0.08, -0.01, -0.01], to: [0.09, 0.01, 0.01], density: 2000.0 }],
+///     ballast: vec![Ballast { mass: 5e-4, position: [0.095, 0.0, 0.0], radius: 0.003 }],
+///     ..BodySpec::default()
+/// };
+/// let mass = mass_properties(&pencil, &spec)?;
+/// assert!((mass.mass - 5.195e-3).abs() < 1e-6);
+/// assert!((mass.centre_of_mass[0] - 0.01796).abs() < 1e-5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BodySpec {
-    /// Density of the homogeneous body (kg/m^3); with a `mass`, the mass decides.
+    /// Density of the body outside its regions (kg/m^3); with a `mass`, the mass decides.
     pub density: Option<f64>,
-    /// Mass (kg).
+    /// Mass of the body with its regions and without its ballast (kg).
     pub mass: Option<f64>,
-    /// Centre of mass in the frame of the mesh (m); the centroid of the volume if none.
+    /// Where the density is another; of regions that overlap the last counts.
+    pub regions: Vec<Region>,
+    /// What is added to the body, and to its mass.
+    pub ballast: Vec<Ballast>,
+    /// Centre of mass in the frame of the mesh (m); that of the solid if none. Not beside regions or ballast,
+    /// which make their own.
     pub centre_of_mass: Option<[f64; 3]>,
-    /// Inertia about the centre of mass, axes of the mesh (kg m^2); that of a homogeneous body if
-    /// none.
+    /// Inertia about the centre of mass, axes of the mesh (kg m^2); that of the solid if none. Not beside
+    /// regions or ballast.
     pub inertia: Option<[[f64; 3]; 3]>,
     /// Thickness b of Eq. (1) (m); [`characteristic_thickness`] if none.
     pub thickness: Option<f64>,
@@ -40,6 +63,14 @@ pub enum BodyBakeError {
     /// Neither a density nor a mass was given.
     #[error("the body has neither a density nor a mass; give one of them")]
     NoMass,
+    /// The centre of mass or the inertia is given, and so is what makes it.
+    #[error(
+        "the body has `{key}` beside regions or ballast, which make it: leave out `{key}`, or all regions and ballast"
+    )]
+    MassTwice {
+        /// `centre_of_mass` or `inertia`.
+        key: &'static str,
+    },
     /// What came out is no body that the run time takes.
     #[error(
         "the bake failed: {0}. The mesh passes every check, so its size or proportions must be extreme; `langevin-rigid check` shows them"
@@ -137,12 +168,27 @@ pub fn could_be(body: &Body, mesh: &TriMesh, spec: &BodySpec) -> bool {
         && vertices.zip(&body.surface.vertices).all(|(p, q)| p == *q)
 }
 
-fn mass_properties(mesh: &TriMesh, spec: &BodySpec) -> Result<MassProperties, BodyBakeError> {
+/// Mass, centre of mass and inertia of the body that [`bake_body`] makes.
+///
+/// # Errors
+/// [`BodyBakeError::Mass`], [`BodyBakeError::NoMass`] and [`BodyBakeError::MassTwice`].
+pub fn mass_properties(mesh: &TriMesh, spec: &BodySpec) -> Result<MassProperties, BodyBakeError> {
+    if !(spec.regions.is_empty() && spec.ballast.is_empty()) {
+        let given = [
+            ("centre_of_mass", spec.centre_of_mass.is_some()),
+            ("inertia", spec.inertia.is_some()),
+        ];
+        if let Some((key, _)) = given.into_iter().find(|(_, given)| *given) {
+            return Err(BodyBakeError::MassTwice { key });
+        }
+    }
+    let regions = &spec.regions;
     let mut mass = match (spec.density, spec.mass) {
-        (_, Some(mass)) => MassProperties::of(mesh, 1.0)?.with_mass(mass)?,
-        (Some(density), None) => MassProperties::of(mesh, density)?,
+        (_, Some(mass)) => MassProperties::of_regions_and_mass(mesh, mass, regions)?,
+        (Some(density), None) => MassProperties::of_regions(mesh, density, regions)?,
         (None, None) => return Err(BodyBakeError::NoMass),
     };
+    mass = mass.with_ballast(&spec.ballast)?;
     if let Some(centre) = spec.centre_of_mass {
         mass = mass.with_centre_of_mass(centre)?;
     }

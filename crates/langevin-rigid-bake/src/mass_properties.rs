@@ -2,15 +2,22 @@
 //!
 //! The integrals over the polyhedron are exact; they are taken about the mesh's own middle, so
 //! that a mesh far from the origin loses no digits. A uniform body follows from its density
-//! ([`MassProperties::of`]); a measured or weighted one by replacing the density, mass, centre of
-//! mass or inertia.
+//! ([`MassProperties::of`]), one of several materials from the density of each [`Region`]
+//! ([`MassProperties::of_regions`]); a weighted one by adding [`Ballast`] ([`MassProperties::with_ballast`]), a
+//! measured one by replacing the density, mass, centre of mass or inertia.
 
+mod ballast;
+mod boxes;
+mod clip;
 mod inertia;
+mod region;
 
 use crate::mesh::TriMesh;
 use crate::mesh::vector::{add, cross, dot, scale, sub};
 
+pub use ballast::Ballast;
 pub use inertia::{check_inertia, principal_moments};
+pub use region::Region;
 
 /// Volume, mass and inertia of a rigid body, in the frame of its mesh.
 ///
@@ -201,6 +208,61 @@ pub enum MassError {
         /// Principal moments, ascending (kg m²).
         moments: [f64; 3],
     },
+    /// The radius of a ballast is negative or not finite.
+    #[error(
+        "the radius of a ballast must be finite and not negative, not {radius} m; 0 is a point"
+    )]
+    BallastRadius {
+        /// Its value (m).
+        radius: f64,
+    },
+    /// The corners of a region make no box.
+    #[error(
+        "region {} is no box: each coordinate of `from` {from:?} must be below that of `to` {to:?} (m), all finite",
+        .region + 1
+    )]
+    RegionCorners {
+        /// Number of the region, from 0.
+        region: usize,
+        /// Its lowest corner (m).
+        from: [f64; 3],
+        /// Its highest corner (m).
+        to: [f64; 3],
+    },
+    /// A region in which nothing of the body takes its density.
+    #[error(
+        "nothing of the body is in region {}, from {from:?} to {to:?} m, outside the regions after it; \
+         the body reaches from {low:?} to {high:?} m in the frame of its mesh: move the region or leave it out",
+        .region + 1
+    )]
+    EmptyRegion {
+        /// Number of the region, from 0.
+        region: usize,
+        /// Its lowest corner (m).
+        from: [f64; 3],
+        /// Its highest corner (m).
+        to: [f64; 3],
+        /// Lowest corner of the box about the body (m).
+        low: [f64; 3],
+        /// Highest corner of the box about the body (m).
+        high: [f64; 3],
+    },
+    /// A mass is given beside regions that leave nothing to weigh the rest.
+    #[error(
+        "the regions hold all of the body, so its mass is theirs: give a density in place of the mass"
+    )]
+    RegionsHoldAll,
+    /// The regions weigh as much as the whole is said to.
+    #[error(
+        "the regions alone weigh {regions:e} kg, and the whole body, without ballast, is given {mass:e} kg: \
+         lower their densities or raise the mass"
+    )]
+    RegionsOutweigh {
+        /// Mass of what the regions hold (kg).
+        regions: f64,
+        /// Mass given for the whole (kg).
+        mass: f64,
+    },
     /// One principal moment exceeds the sum of the others.
     #[error(
         "no body has the principal moments of inertia {moments:?} kg m²: the largest exceeds the sum of the other two; check the units and the signs of the products of inertia"
@@ -233,7 +295,8 @@ fn middle_of(mesh: &TriMesh) -> [f64; 3] {
     scale(0.5, add(low, high))
 }
 
-/// Integrals of 1, x and x xᵀ over the polyhedron.
+/// Integrals of 1, x and x xᵀ over a polyhedron.
+#[derive(Default)]
 struct Moments {
     volume: f64,
     first: [f64; 3],
@@ -241,28 +304,39 @@ struct Moments {
 }
 
 impl Moments {
-    /// Sums over the tetrahedra from `origin` to each triangle a b c, whose integral of x xᵀ is
-    /// V/20 (a aᵀ + b bᵀ + c cᵀ + s sᵀ) with s = a + b + c.
+    /// Sums over the tetrahedra from `origin` to each triangle.
     fn about(mesh: &TriMesh, origin: [f64; 3]) -> Moments {
-        let mut m = Moments {
-            volume: 0.0,
-            first: [0.0; 3],
-            second: [[0.0; 3]; 3],
-        };
+        let mut m = Moments::default();
         for t in 0..mesh.triangles().len() {
             let [a, b, c] = mesh.corners(t).map(|v| sub(v, origin));
-            let volume = dot(a, cross(b, c)) / 6.0;
-            let s = add(a, add(b, c));
-            m.volume += volume;
-            m.first = add(m.first, scale(0.25 * volume, s));
-            for i in 0..3 {
-                for j in 0..3 {
-                    let products = a[i] * a[j] + b[i] * b[j] + c[i] * c[j] + s[i] * s[j];
-                    m.second[i][j] += 0.05 * volume * products;
-                }
-            }
+            m.add_tetrahedron(dot(a, cross(b, c)) / 6.0, &[a, b, c]);
         }
         m
+    }
+
+    /// Adds a tetrahedron of that signed volume V by its corners v, of which one at the origin may be left out: its
+    /// integral of x xᵀ is V/20 (Σ v vᵀ + s sᵀ) with s = Σ v.
+    fn add_tetrahedron(&mut self, volume: f64, corners: &[[f64; 3]]) {
+        let s = corners.iter().rev().fold([0.0; 3], |s, v| add(*v, s));
+        self.volume += volume;
+        self.first = add(self.first, scale(0.25 * volume, s));
+        for i in 0..3 {
+            for j in 0..3 {
+                let squares: f64 = corners.iter().map(|v| v[i] * v[j]).sum();
+                self.second[i][j] += 0.05 * volume * (squares + s[i] * s[j]);
+            }
+        }
+    }
+
+    /// Adds the moments of another part times a factor.
+    fn add(&mut self, factor: f64, part: &Moments) {
+        self.volume += factor * part.volume;
+        self.first = add(self.first, scale(factor, part.first));
+        for i in 0..3 {
+            for j in 0..3 {
+                self.second[i][j] += factor * part.second[i][j];
+            }
+        }
     }
 
     /// The centroid from the origin of the moments.

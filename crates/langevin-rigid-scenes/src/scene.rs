@@ -6,6 +6,7 @@
 
 mod body;
 mod grid;
+mod materials;
 mod place;
 mod quantity;
 mod raw;

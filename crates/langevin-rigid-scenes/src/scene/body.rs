@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use langevin_rigid_bake::body::BodySpec;
-use langevin_rigid_bake::mass_properties::check_inertia;
+use langevin_rigid_bake::TriMesh;
+use langevin_rigid_bake::body::{BodyBakeError, BodySpec, mass_properties};
+use langevin_rigid_bake::mass_properties::{MassError, check_inertia};
 use serde_spanned::Spanned;
 
 use super::place::{Document, SceneError};
 use super::quantity::{DENSITY, INERTIA, MASS, PLACE, SIZE};
 use super::raw::{RawBody, given};
-use super::{BodySource, Geometry, WriteSceneError, shape};
+use super::{BodySource, Geometry, WriteSceneError, materials, shape};
 use langevin_rigid_formats::mesh::{LengthUnit, MeshFormat};
 
 /// Triangles of a parametric body where the scene does not say.
@@ -17,26 +18,51 @@ const DEFAULT_TRIANGLES: usize = 1280;
 
 pub(super) fn resolve(doc: &Document, raw: &Spanned<RawBody>) -> Result<BodySource, SceneError> {
     let body = raw.get_ref();
-    let (geometry, own_thickness) = match (&body.shape, &body.mesh) {
-        (Some(shape), None) => parametric(doc, body, shape)?,
-        (None, Some(mesh)) => (from_file(doc, body, mesh)?, None),
+    match (&body.shape, &body.mesh) {
+        (Some(shape), None) => {
+            let (geometry, mesh, thickness) = parametric(doc, body, shape)?;
+            let spec = spec(doc, raw, Some(thickness))?;
+            weigh(doc, raw, &mesh, &spec)?;
+            Ok(BodySource { geometry, spec })
+        }
+        (None, Some(mesh)) => Ok(BodySource {
+            geometry: from_file(doc, body, mesh)?,
+            spec: spec(doc, raw, None)?,
+        }),
         (Some(_), Some(mesh)) => {
-            return Err(doc.error(
-                mesh.span(),
-                "a body has either a `shape` or a `mesh`, not both",
-            ));
+            let message = "a body has either a `shape` or a `mesh`, not both";
+            Err(doc.error(mesh.span(), message))
         }
         (None, None) => {
             let message = format!(
                 "the body has neither a `mesh` (a file) nor a `shape` ({})",
                 shape::names()
             );
-            return Err(doc.error(raw.span(), message));
+            Err(doc.error(raw.span(), message))
         }
-    };
-    Ok(BodySource {
-        geometry,
-        spec: spec(doc, raw, own_thickness)?,
+    }
+}
+
+/// Refuses regions that the body does not fit; those of a mesh file are seen when it is read.
+fn weigh(
+    doc: &Document,
+    raw: &Spanned<RawBody>,
+    mesh: &TriMesh,
+    spec: &BodySpec,
+) -> Result<(), SceneError> {
+    if spec.regions.is_empty() {
+        return Ok(());
+    }
+    let body = raw.get_ref();
+    mass_properties(mesh, spec).map(|_| ()).map_err(|error| {
+        let place = match (&error, &body.mass) {
+            (BodyBakeError::Mass(MassError::EmptyRegion { region, .. }), _) => {
+                body.region[*region].span()
+            }
+            (_, Some(mass)) => mass.span(),
+            _ => raw.span(),
+        };
+        doc.error(place, error.to_string())
     })
 }
 
@@ -52,11 +78,14 @@ fn spec(
         let message = "the body needs a `density` (kg/m^3) or a `mass` (kg)";
         return Err(doc.error(raw.span(), message));
     }
+    materials::check_stated_once(doc, body)?;
     let centre = |v| doc.numbers(v, "centre_of_mass", PLACE);
     let thickness = &body.characteristic_thickness;
     Ok(BodySpec {
         density,
         mass,
+        regions: materials::regions(doc, body)?,
+        ballast: materials::ballast(doc, body)?,
         centre_of_mass: body.centre_of_mass.as_ref().map(centre).transpose()?,
         inertia: inertia(doc, body)?,
         thickness: doc
@@ -107,12 +136,12 @@ fn from_file(
     })
 }
 
-/// The shape and the thickness b of Eq. (1) that belongs to it.
+/// The shape, its mesh, and the thickness b of Eq. (1) that belongs to it.
 fn parametric(
     doc: &Document,
     body: &RawBody,
     name: &Spanned<String>,
-) -> Result<(Geometry, Option<f64>), SceneError> {
+) -> Result<(Geometry, TriMesh, f64), SceneError> {
     if let Some(unit) = &body.unit {
         return Err(doc.error(
             unit.span(),
@@ -122,13 +151,11 @@ fn parametric(
     let shape = shape::resolve(doc, body, name)?;
     let triangles = triangles(doc, body)?;
     // Impossible dimensions and counts show when the mesh is made: do it once, here.
-    shape
+    let mesh = shape
         .mesh(triangles)
         .map_err(|e| doc.error(name.span(), e.to_string()))?;
-    Ok((
-        Geometry::Shape { shape, triangles },
-        Some(shape.thickness()),
-    ))
+    let thickness = shape.thickness();
+    Ok((Geometry::Shape { shape, triangles }, mesh, thickness))
 }
 
 fn triangles(doc: &Document, body: &RawBody) -> Result<usize, SceneError> {
@@ -162,6 +189,8 @@ pub(super) fn write(source: &BodySource) -> Result<RawBody, WriteSceneError> {
     let spec = &source.spec;
     raw.density = spec.density.and_then(given);
     raw.mass = spec.mass.and_then(given);
+    raw.region = spec.regions.iter().map(materials::write_region).collect();
+    raw.ballast = spec.ballast.iter().map(materials::write_ballast).collect();
     raw.centre_of_mass = spec.centre_of_mass.and_then(|c| given(c.to_vec()));
     let row = |row: [f64; 3]| Spanned::new(0..0, row.to_vec());
     raw.inertia = spec.inertia.and_then(|m| given(m.map(row).to_vec()));

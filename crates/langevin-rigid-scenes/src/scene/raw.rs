@@ -68,6 +68,27 @@ pub(super) struct RawBody {
     pub(super) inertia: Given<Vec<Spanned<Vec<f64>>>>,
     pub(super) characteristic_thickness: Given<f64>,
     pub(super) characteristic_length: Given<f64>,
+    // Tables last, as TOML has them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) region: Vec<Spanned<RawRegion>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) ballast: Vec<Spanned<RawBallast>>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRegion {
+    pub(super) from: Given<Vec<f64>>,
+    pub(super) to: Given<Vec<f64>>,
+    pub(super) density: Given<f64>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawBallast {
+    pub(super) mass: Given<f64>,
+    pub(super) position: Given<Vec<f64>>,
+    pub(super) radius: Given<f64>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
