@@ -12,7 +12,7 @@ use crate::separation::{separation, slices};
 /// What a body is made of, beside its surface. Absent values follow from the mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BodySpec {
-    /// Density of the homogeneous body (kg/m^3); with a `mass`, the mass decides.
+    /// Density of the homogeneous body (kg/m^3), zero for one without mass; with a `mass`, the mass decides.
     pub density: Option<f64>,
     /// Mass (kg).
     pub mass: Option<f64>,
