@@ -30,6 +30,8 @@ pub(crate) struct Rates<R = f64> {
 pub(crate) struct Pace<R = f64> {
     /// Rates of all but the resistances.
     free: Rates<R>,
+    /// The same without that of the impulse's moment, which the implicit scheme does not know.
+    smooth: Rates<R>,
     /// Rates of the resistances.
     resisted: Rates<R>,
     /// What weight and buoyancy add to the speed in a second (m/s^2), at most.
@@ -69,10 +71,14 @@ impl Pace {
             closure,
             length,
         };
-        let mut free = probe.rates(|xi| spectral_radius(&probe.jacobian(xi)));
-        free.speed = free.speed.max(IMPULSE * impulse_rate(&kirchhoff.total));
+        let smooth = probe.rates(|xi| spectral_radius(&probe.jacobian(xi)));
+        let impulse = IMPULSE * impulse_rate(&kirchhoff.total);
         Self {
-            free,
+            free: Rates {
+                speed: smooth.speed.max(impulse),
+                ..smooth
+            },
+            smooth,
             resisted: probe.rates(|xi| spectral_radius(&probe.relaxation(xi))),
             gain: kirchhoff.gain(),
         }
@@ -82,6 +88,7 @@ impl Pace {
     pub(crate) fn lift<R: Real>(&self, like: R) -> Pace<R> {
         Pace {
             free: self.free.lift(like),
+            smooth: self.smooth.lift(like),
             resisted: self.resisted.lift(like),
             gain: like.of(self.gain),
         }
@@ -122,8 +129,13 @@ impl<R: Real> Pace<R> {
                 rough: long,
             };
         }
+        // Where the impulse would spin up next to no inertia in the least part, resistances hold it: a rod hardly heavier
+        // than nothing.
+        let smooth = self.smooth.at(speed, spin);
+        let faint = explicit.less(least * free) & smooth.less(free) & left.of(0.0).less(resisted);
+        let free = R::choose(faint, smooth, free);
         let others = free.max(explicit / left);
-        let stiff = long & (others * left.of(STIFF)).less(resisted);
+        let stiff = long & (faint | (others * left.of(STIFF)).less(resisted));
         let wanted = R::choose(
             stiff,
             left.of(IMPLICIT) / free,
