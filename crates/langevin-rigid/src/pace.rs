@@ -30,8 +30,6 @@ pub(crate) struct Rates<R = f64> {
 pub(crate) struct Pace<R = f64> {
     /// Rates of all but the resistances.
     free: Rates<R>,
-    /// The same without that of the impulse's moment, which the implicit scheme does not know.
-    smooth: Rates<R>,
     /// Rates of the resistances.
     resisted: Rates<R>,
     /// What weight and buoyancy add to the speed in a second (m/s^2), at most.
@@ -46,6 +44,9 @@ const EXPLICIT: f64 = 1.0;
 const IMPULSE: f64 = 0.5;
 /// Where the resistances are this many times as fast as the rest and the step, they are taken implicitly.
 const STIFF: f64 = 16.0;
+/// Where a part that is no longer than may be still wants to be this many times as short, they are taken so too: what
+/// they hold stays bounded, while the explicit scheme makes its errors the spin of a rod that weighs next to nothing.
+const LOST: f64 = 16.0;
 /// A part that takes them so, and the rest by the midpoint rule of second order, is at most this over the rate
 /// of the rest.
 const IMPLICIT: f64 = 0.25;
@@ -71,14 +72,10 @@ impl Pace {
             closure,
             length,
         };
-        let smooth = probe.rates(|xi| spectral_radius(&probe.jacobian(xi)));
-        let impulse = IMPULSE * impulse_rate(&kirchhoff.total);
+        let mut free = probe.rates(|xi| spectral_radius(&probe.jacobian(xi)));
+        free.speed = free.speed.max(IMPULSE * impulse_rate(&kirchhoff.total));
         Self {
-            free: Rates {
-                speed: smooth.speed.max(impulse),
-                ..smooth
-            },
-            smooth,
+            free,
             resisted: probe.rates(|xi| spectral_radius(&probe.relaxation(xi))),
             gain: kirchhoff.gain(),
         }
@@ -88,7 +85,6 @@ impl Pace {
     pub(crate) fn lift<R: Real>(&self, like: R) -> Pace<R> {
         Pace {
             free: self.free.lift(like),
-            smooth: self.smooth.lift(like),
             resisted: self.resisted.lift(like),
             gain: like.of(self.gain),
         }
@@ -129,13 +125,9 @@ impl<R: Real> Pace<R> {
                 rough: long,
             };
         }
-        // Where the impulse would spin up next to no inertia in the least part, resistances hold it: a rod hardly heavier
-        // than nothing.
-        let smooth = self.smooth.at(speed, spin);
-        let faint = explicit.less(least * free) & smooth.less(free) & left.of(0.0).less(resisted);
-        let free = R::choose(faint, smooth, free);
         let others = free.max(explicit / left);
-        let stiff = long & (faint | (others * left.of(STIFF)).less(resisted));
+        let lost = left.of(LOST).less(least * free) & left.of(0.0).less(resisted);
+        let stiff = long & (lost | (others * left.of(STIFF)).less(resisted));
         let wanted = R::choose(
             stiff,
             left.of(IMPLICIT) / free,
