@@ -30,7 +30,7 @@ use crate::separation::{separation, slices};
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BodySpec {
-    /// Density of the body outside its regions (kg/m^3); with a `mass`, the mass decides.
+    /// Density of the body outside its regions (kg/m^3), zero for one without mass; with a `mass`, the mass decides.
     pub density: Option<f64>,
     /// Mass of the body with its regions and without its ballast (kg).
     pub mass: Option<f64>,

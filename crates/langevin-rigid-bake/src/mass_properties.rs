@@ -53,10 +53,10 @@ impl MassProperties {
     ///
     /// # Errors
     ///
-    /// [`MassError::NotPositive`] where the density is not positive and finite; [`MassError::Scale`]
+    /// [`MassError::Negative`] where the density is negative or not finite; [`MassError::Scale`]
     /// where the mesh is so large or so small that its integrals are not.
     pub fn of(mesh: &TriMesh, density: f64) -> Result<MassProperties, MassError> {
-        check_positive("density", density, "kg/m³")?;
+        check_nonnegative("density", density, "kg/m³")?;
         let middle = middle_of(mesh);
         let solid = Moments::about(mesh, middle);
         let displaced = Moments::about(&mesh.wetted(), middle);
@@ -76,12 +76,17 @@ impl MassProperties {
         let places = self.centroid.iter().chain(&self.centre_of_mass);
         let place = places.fold(0.0, |sum, x| sum + x.abs());
         let [least, _, most] = principal_moments(self.inertia);
+        let some = if self.mass == 0.0 {
+            0.0
+        } else {
+            f64::MIN_POSITIVE
+        };
         for (quantity, value, least_value) in [
             ("volume", self.volume, f64::MIN_POSITIVE),
-            ("mass", self.mass, f64::MIN_POSITIVE),
+            ("mass", self.mass, 0.0),
             ("centroid", place, 0.0),
-            ("largest moment of inertia", most, f64::MIN_POSITIVE),
-            ("smallest moment of inertia", least, f64::MIN_POSITIVE),
+            ("largest moment of inertia", most, some),
+            ("smallest moment of inertia", least, some),
         ] {
             if !(value >= least_value && value.is_finite()) {
                 return Err(MassError::Scale { quantity, value });
@@ -99,10 +104,11 @@ impl MassProperties {
     ///
     /// # Errors
     ///
-    /// [`MassError::NotPositive`] where the mass is not positive and finite, [`MassError::Scale`] where
-    /// the inertia is then not.
+    /// [`MassError::Negative`] where the mass is negative or not finite, [`MassError::NotPositive`] where the body
+    /// had none, [`MassError::Scale`] where the inertia is too large or too small.
     pub fn with_mass(self, mass: f64) -> Result<MassProperties, MassError> {
-        check_positive("mass", mass, "kg")?;
+        check_nonnegative("mass", mass, "kg")?;
+        check_positive("mass before", self.mass, "kg")?;
         let ratio = mass / self.mass;
         let inertia = self.inertia.map(|row| scale(ratio, row));
         MassProperties {
@@ -117,9 +123,8 @@ impl MassProperties {
     ///
     /// # Errors
     ///
-    /// [`MassError::NotPositive`] where the density is not positive and finite.
+    /// Those of [`MassProperties::with_mass`].
     pub fn with_density(self, density: f64) -> Result<MassProperties, MassError> {
-        check_positive("density", density, "kg/m³")?;
         self.with_mass(density * self.volume)
     }
 
@@ -159,9 +164,19 @@ impl MassProperties {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MassError {
-    /// A density or mass that is not positive and finite.
+    /// A mass that is not positive and finite.
     #[error("the {quantity} must be positive and finite, not {value} {unit}")]
     NotPositive {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// A density or mass that is negative or not finite.
+    #[error("the {quantity} must be zero or positive, and finite, not {value} {unit}")]
+    Negative {
         /// Name of the quantity.
         quantity: &'static str,
         /// Its value.
@@ -278,6 +293,21 @@ fn check_positive(quantity: &'static str, value: f64, unit: &'static str) -> Res
         return Ok(());
     }
     Err(MassError::NotPositive {
+        quantity,
+        value,
+        unit,
+    })
+}
+
+fn check_nonnegative(
+    quantity: &'static str,
+    value: f64,
+    unit: &'static str,
+) -> Result<(), MassError> {
+    if value >= 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(MassError::Negative {
         quantity,
         value,
         unit,

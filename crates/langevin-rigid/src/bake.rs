@@ -475,10 +475,10 @@ mod tests {
             Bake::from_bytes(&wrong.to_bytes()),
             Err(BakeError::Body(BodyError::Surface))
         );
-        let mut massless = bake();
-        massless.body.mass = 0.0;
+        let mut lighter = bake();
+        lighter.body.mass = -1.0;
         assert!(matches!(
-            Bake::from_bytes(&massless.to_bytes()),
+            Bake::from_bytes(&lighter.to_bytes()),
             Err(BakeError::Body(_))
         ));
     }

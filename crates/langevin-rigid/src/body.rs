@@ -31,9 +31,9 @@ use crate::linalg::{Mat3, Mat6, Vec3, cholesky, cross, eigen_symmetric};
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Body {
-    /// Mass m (kg).
+    /// Mass m (kg); zero for a body whose inertia is that of the fluid around it alone.
     pub mass: f64,
-    /// Inertia J0 about the centre of mass (kg m^2).
+    /// Inertia J0 about the centre of mass (kg m^2); zero only for a body without mass.
     pub inertia: Mat3,
     /// Volume V (m^3).
     pub volume: f64,
@@ -116,6 +116,14 @@ pub enum BodyError {
         /// Its value.
         value: f64,
     },
+    /// A quantity that may be zero is negative, infinite or not a number.
+    #[error("the body's {name} is {value}; it must be zero or a positive number")]
+    Negative {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// A quantity has an entry that is infinite or not a number.
     #[error("{} {name} with an entry that is not finite; bake the body again", owner(.slice))]
     NotFinite {
@@ -142,7 +150,7 @@ pub enum BodyError {
     TooManySlices(usize),
     /// The inertia has no inverse or is not symmetric.
     #[error(
-        "the body's inertia is not a symmetric positive definite matrix; check its units (kg m^2) and its rows"
+        "the body's inertia is not a symmetric positive definite matrix, nor zero with a mass of zero; check its units (kg m^2) and its rows"
     )]
     Inertia,
     /// The centre of mass asked for has a coordinate that is infinite or not a number.
@@ -159,8 +167,8 @@ impl Body {
     /// # Errors
     /// See [`BodyError`]; the first fault in the order of the fields.
     pub fn check(&self) -> Result<(), BodyError> {
+        nonnegative("mass", self.mass)?;
         for (name, value) in [
-            ("mass", self.mass),
             ("volume", self.volume),
             ("thickness", self.thickness),
             ("length", self.length),
@@ -174,7 +182,8 @@ impl Body {
         finite("centre of buoyancy", None, &self.centre_of_buoyancy)?;
         finite("inertia", None, self.inertia.as_flattened())?;
         finite("added mass", None, self.added_mass.as_flattened())?;
-        if !symmetric(&self.inertia) || cholesky(&self.inertia).is_none() {
+        let none = self.mass == 0.0 && self.inertia == [[0.0; 3]; 3];
+        if !none && (!symmetric(&self.inertia) || cholesky(&self.inertia).is_none()) {
             return Err(BodyError::Inertia);
         }
         if !symmetric(&self.added_mass) {
@@ -265,6 +274,14 @@ fn owner(slice: &Option<usize>) -> String {
     match slice {
         None => "the body has".into(),
         Some(number) => format!("slice {number} of the body (from 0) has"),
+    }
+}
+
+/// Checks that a quantity is finite and zero or more.
+pub(crate) fn nonnegative(name: &'static str, value: f64) -> Result<(), BodyError> {
+    match value >= 0.0 && value.is_finite() {
+        true => Ok(()),
+        false => Err(BodyError::Negative { name, value }),
     }
 }
 

@@ -123,12 +123,12 @@ impl<R: Real> Pace<R> {
             };
         }
         let others = free.max(explicit / left);
-        let stiff = long & (others * left.of(STIFF)).less(resisted);
-        let wanted = R::choose(
-            stiff,
-            left.of(IMPLICIT) / free,
-            explicit / free.max(resisted),
-        );
+        let fastest = free.max(resisted);
+        // Where even the shortest part is too long for the explicit scheme, its errors would be motion: what the
+        // resistances hold stays bounded.
+        let lost = explicit.less(least * fastest) & left.of(0.0).less(resisted);
+        let stiff = long & (lost | (others * left.of(STIFF)).less(resisted));
+        let wanted = R::choose(stiff, left.of(IMPLICIT) / free, explicit / fastest);
         Substep {
             h: R::choose(long, wanted.max(least).min(left), left),
             stiff,

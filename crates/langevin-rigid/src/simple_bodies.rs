@@ -4,6 +4,8 @@
 //! (masses, sizes, everything of an ellipsoid) or from fits to values of the boundary-element bake
 //! (added mass and drag of cylinders and boxes). Each constructor states how far the two were found
 //! apart.
+//!
+//! A density of zero is a body without mass: what moves is the fluid around it.
 
 mod cuboid;
 mod cylinder;
@@ -11,7 +13,7 @@ mod ellipsoid;
 mod slices;
 mod surface;
 
-use crate::body::{Body, BodyError, Separation, Slice, Surface};
+use crate::body::{Body, BodyError, Separation, Slice, Surface, nonnegative};
 use crate::linalg::Vec3;
 use crate::stokes::{stokes_rotation, stokes_translation};
 
@@ -30,9 +32,9 @@ impl Body {
     /// ```
     ///
     /// # Errors
-    /// [`BodyError::NotPositive`] names the number that is not positive and finite.
+    /// [`BodyError::NotPositive`] or [`BodyError::Negative`] names the number that is out of range.
     pub fn sphere(radius: f64, density: f64) -> Result<Body, BodyError> {
-        positive([("radius", radius), ("density", density)])?;
+        positive([("radius", radius)])?;
         ellipsoid::form([radius; 3]).body(density)
     }
 
@@ -47,13 +49,12 @@ impl Body {
     /// areas 0.2 % of the largest, sizes and Stokes resistance 1 %, the slices 3 %: the errors of that mesh.
     ///
     /// # Errors
-    /// [`BodyError::NotPositive`] names the number that is not positive and finite.
+    /// [`BodyError::NotPositive`] or [`BodyError::Negative`] names the number that is out of range.
     pub fn ellipsoid(semi_axes: Vec3, density: f64) -> Result<Body, BodyError> {
         positive([
             ("semi-axis along x", semi_axes[0]),
             ("semi-axis along y", semi_axes[1]),
             ("semi-axis along z", semi_axes[2]),
-            ("density", density),
         ])?;
         ellipsoid::form(semi_axes).body(density)
     }
@@ -65,13 +66,9 @@ impl Body {
     /// no thickness the added mass is Lamb's (1932, articles 102 and 108), 8/3 r^3 broadside.
     ///
     /// # Errors
-    /// [`BodyError::NotPositive`] names the number that is not positive and finite.
+    /// [`BodyError::NotPositive`] or [`BodyError::Negative`] names the number that is out of range.
     pub fn disc(radius: f64, thickness: f64, density: f64) -> Result<Body, BodyError> {
-        positive([
-            ("radius", radius),
-            ("thickness", thickness),
-            ("density", density),
-        ])?;
+        positive([("radius", radius), ("thickness", thickness)])?;
         cylinder::form(radius, thickness, 1).body(density)
     }
 
@@ -79,13 +76,12 @@ impl Body {
     /// and this density (kg/m^3), centred at the origin: `Body::cuboid([length, thickness, width], density)`.
     ///
     /// # Errors
-    /// [`BodyError::NotPositive`] names the number that is not positive and finite.
+    /// [`BodyError::NotPositive`] or [`BodyError::Negative`] names the number that is out of range.
     pub fn plate(length: f64, width: f64, thickness: f64, density: f64) -> Result<Body, BodyError> {
         positive([
             ("length", length),
             ("width", width),
             ("thickness", thickness),
-            ("density", density),
         ])?;
         cuboid::form([length, thickness, width]).body(density)
     }
@@ -103,9 +99,9 @@ impl Body {
     /// face's that it is within these 2 %.
     ///
     /// # Errors
-    /// [`BodyError::NotPositive`] names the number that is not positive and finite.
+    /// [`BodyError::NotPositive`] or [`BodyError::Negative`] names the number that is out of range.
     pub fn cylinder(radius: f64, length: f64, density: f64) -> Result<Body, BodyError> {
-        positive([("radius", radius), ("length", length), ("density", density)])?;
+        positive([("radius", radius), ("length", length)])?;
         cylinder::form(radius, length, 0).body(density)
     }
 
@@ -124,13 +120,12 @@ impl Body {
     /// of their plane, which no longer tell its corners from its faces.
     ///
     /// # Errors
-    /// [`BodyError::NotPositive`] names the number that is not positive and finite.
+    /// [`BodyError::NotPositive`] or [`BodyError::Negative`] names the number that is out of range.
     pub fn cuboid(size: Vec3, density: f64) -> Result<Body, BodyError> {
         positive([
             ("size along x", size[0]),
             ("size along y", size[1]),
             ("size along z", size[2]),
-            ("density", density),
         ])?;
         cuboid::form(size).body(density)
     }
@@ -166,6 +161,7 @@ struct Form {
 
 impl Form {
     fn body(self, density: f64) -> Result<Body, BodyError> {
+        nonnegative("density", density)?;
         let mass = density * self.volume;
         let [x, y, z] = self.mean_squares;
         let mut half_extents = self.half_extents;
@@ -234,7 +230,8 @@ mod tests {
     #[test]
     fn impossible_numbers_are_named() {
         let named = |body: Result<Body, BodyError>, wanted: &str| {
-            let Err(BodyError::NotPositive { name, .. }) = body else {
+            let Err(BodyError::NotPositive { name, .. } | BodyError::Negative { name, .. }) = body
+            else {
                 panic!("{body:?} for {wanted}");
             };
             assert_eq!(name, wanted);

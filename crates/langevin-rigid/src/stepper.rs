@@ -127,8 +127,8 @@ impl Stepper {
         if let Some(history) = history {
             history.check()?;
         }
-        let kirchhoff =
-            Kirchhoff::new(body, fluid, settings.gravity).ok_or(SetupError::TotalMass)?;
+        let kirchhoff = Kirchhoff::new(body, fluid, settings.gravity)
+            .ok_or_else(|| SetupError::without_inertia(body, fluid))?;
         let (loads, paper) = setup::loads(body, fluid, history, settings, &kirchhoff)?;
         let moving = fluid.velocity.iter().any(|&u| u != 0.0);
         let closure = match &loads {

@@ -166,7 +166,7 @@ fn impossible_mass_properties_are_named() {
     let at = [0.0; 3];
     assert!(matches!(
         with(-1.0, at, body.inertia),
-        BodyError::NotPositive { name: "mass", .. }
+        BodyError::Negative { name: "mass", .. }
     ));
     assert_eq!(
         with(1.0, [f64::NAN, 0.0, 0.0], body.inertia),

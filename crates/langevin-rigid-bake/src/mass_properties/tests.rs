@@ -99,16 +99,16 @@ fn impossible_values_are_refused_by_name() {
     let mesh = Shape::Box { size: [1.0; 3] }.mesh(12).unwrap();
     assert!(matches!(
         MassProperties::of(&mesh, -1.0),
-        Err(MassError::NotPositive { .. })
+        Err(MassError::Negative { .. })
     ));
     let body = MassProperties::of(&mesh, 1.0).unwrap();
     assert!(matches!(
-        body.with_mass(0.0),
+        body.with_mass(0.0).unwrap().with_mass(1.0),
         Err(MassError::NotPositive { .. })
     ));
     assert!(matches!(
         body.with_density(f64::NAN),
-        Err(MassError::NotPositive { .. })
+        Err(MassError::Negative { .. })
     ));
     let nowhere = [f64::INFINITY, 0.0, 0.0];
     assert!(matches!(

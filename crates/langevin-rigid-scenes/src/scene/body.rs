@@ -8,7 +8,7 @@ use langevin_rigid_bake::mass_properties::{MassError, check_inertia};
 use serde_spanned::Spanned;
 
 use super::place::{Document, SceneError};
-use super::quantity::{DENSITY, INERTIA, MASS, PLACE, SIZE};
+use super::quantity::{BODY_DENSITY, INERTIA, MASS, PLACE, SIZE};
 use super::raw::{RawBody, given};
 use super::{BodySource, Geometry, WriteSceneError, materials, shape};
 use langevin_rigid_formats::mesh::{LengthUnit, MeshFormat};
@@ -72,7 +72,7 @@ fn spec(
     own_thickness: Option<f64>,
 ) -> Result<BodySpec, SceneError> {
     let body = raw.get_ref();
-    let density = doc.given(&body.density, "density", DENSITY)?;
+    let density = doc.given(&body.density, "density", BODY_DENSITY)?;
     let mass = doc.given(&body.mass, "mass", MASS)?;
     if density.is_none() && mass.is_none() {
         let message = "the body needs a `density` (kg/m^3) or a `mass` (kg)";

@@ -36,6 +36,7 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
     "airplane",
     "ellipsoid-water",
     "coin",
+    "bubble",
     "business-card",
     "sheet-a6",
     "table2-ellipsoid-320-1ms",

@@ -6,7 +6,7 @@ use crate::equations::{FluidLoads, Separated};
 use crate::fluid::Fluid;
 use crate::kirchhoff::Kirchhoff;
 use crate::langevin::Langevin;
-use crate::linalg::{Vec3, norm};
+use crate::linalg::{Vec3, eigen_symmetric, norm, scale, split};
 use crate::published::Published;
 use crate::separated::{Closure, Eddies};
 use crate::settings::{Integrator, Model, Settings};
@@ -36,9 +36,12 @@ pub enum SetupError {
     },
     /// Mass plus added mass is not positive definite.
     #[error(
-        "the total mass tensor (body plus added mass) is not positive definite; check mass, inertia and centre of mass, and bake the body again"
+        "nothing has inertia when the body {motion}, neither it nor the fluid: mass plus added mass is not positive definite. Give a body without mass that of the gas that fills it (air: 1.2 kg/m^3); check mass, inertia and centre of mass of others, and bake them again"
     )]
-    TotalMass,
+    TotalMass {
+        /// The motion: "turns about [0.00, 1.00, 0.00]", body axes.
+        motion: String,
+    },
     /// The source of turbulence needs a history that there is none of.
     #[error(
         "the turbulence source `{0}` samples a precomputed history and there is none; bake the scene with its turbulence, or use `body-driven`"
@@ -54,6 +57,28 @@ pub enum SetupError {
         "the model `published` is defined with the integrator `rk4` only; choose `rk4` or another model"
     )]
     PublishedIntegrator,
+}
+
+impl SetupError {
+    /// [`SetupError::TotalMass`] for the motion that has the least inertia.
+    pub(super) fn without_inertia(body: &Body, fluid: &Fluid) -> Self {
+        let total = body.total_mass(fluid.density);
+        let length = body.rotation_length();
+        let unit = |i: usize| if i < 3 { 1.0 } else { length };
+        let scaled = std::array::from_fn::<[f64; 6], 6, _>(|i| {
+            std::array::from_fn(|j| total[i][j] / (unit(i) * unit(j)))
+        });
+        let (_, motions) = eigen_symmetric(&scaled);
+        let (v, omega) = split(&motions.map(|row| row[0]));
+        let (what, along) = if norm(v) > norm(omega) {
+            ("moves along", v)
+        } else {
+            ("turns about", omega)
+        };
+        Self::TotalMass {
+            motion: format!("{what} {:.2?}", scale(1.0 / norm(along), along)),
+        }
+    }
 }
 
 /// The loads of a model, and the paper's integrator if that is to take the steps.
@@ -82,7 +107,7 @@ pub(super) fn loads(
     let langevin = |source| {
         let added = body.added_mass.map(|row| row.map(|a| fluid.density * a));
         Langevin::new(added, &kirchhoff.total, body.rotation_length(), source)
-            .ok_or(SetupError::TotalMass)
+            .ok_or_else(|| SetupError::without_inertia(body, fluid))
     };
     let by_the_paper = settings.integrator == Integrator::RungeKutta4;
     Ok(match settings.model {
@@ -104,7 +129,7 @@ pub(super) fn loads(
         }
         Model::Published(units) if by_the_paper => {
             let published = Published::new(body, fluid, settings.gravity, units, source()?)
-                .ok_or(SetupError::TotalMass)?;
+                .ok_or_else(|| SetupError::without_inertia(body, fluid))?;
             (
                 FluidLoads::None,
                 Some(Paper::Published(Box::new(published))),
