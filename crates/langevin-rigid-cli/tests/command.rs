@@ -275,7 +275,7 @@ fn mistakes_in_scenes_come_with_line_and_column() {
     );
     refuse(
         &good.replace("1500.0", "-1.0"),
-        &["bad.toml:7:11", "density", "between 1e-9 and 1e9"],
+        &["bad.toml:7:11", "density", "between 0 and 1e9"],
     );
     refuse(&good.replace("1500.0", "\"heavy\""), &["bad.toml:7:11"]);
     refuse(&good.replace("duration = 0.1", ""), &["duration", "ground"]);

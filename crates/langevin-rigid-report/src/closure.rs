@@ -5,6 +5,7 @@ mod discs;
 mod drop;
 mod papers;
 mod solids;
+mod steady;
 mod strips;
 
 use langevin_rigid_bake::progress::Progress;
@@ -21,6 +22,7 @@ pub(crate) fn section(options: &Options, progress: &dyn Progress) -> Result<Sect
     );
     for table in [
         solids::sphere,
+        steady::steady,
         solids::thick,
         papers::papers,
         discs::discs,

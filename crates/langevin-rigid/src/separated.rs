@@ -66,7 +66,7 @@ impl Default for SeparatedFlow {
             rotational_lift: 1.0,
             damping: 1.0,
             rotational_damping: 0.75,
-            relief_speed: 0.65,
+            relief_speed: 0.8,
             turbulence_intensity: 0.1,
             turbulence_memory: 1.0,
             attached: false,

@@ -229,9 +229,9 @@ pub(super) fn thick(
         ];
         for (k, what, digits) in [
             (1, "fall", 3),
-            (2, "drift", 1),
+            (2, "drift", 2),
             (3, "tilt", 2),
-            (4, "turning", 1),
+            (4, "turning", 2),
         ] {
             row.push(section.quote(key(what), turbulent[k], digits).to_string());
         }

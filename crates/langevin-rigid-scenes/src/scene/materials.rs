@@ -4,7 +4,7 @@ use langevin_rigid_bake::mass_properties::{Ballast, Region};
 use serde_spanned::Spanned;
 
 use super::place::{Document, SceneError};
-use super::quantity::{DENSITY, HOLE, MASS, PLACE};
+use super::quantity::{BALLAST_MASS, DENSITY, HOLE, PLACE};
 use super::raw::{Given, RawBallast, RawBody, RawRegion, given};
 
 /// Most regions of a body. The work grows faster than their number where they overlap.
@@ -75,7 +75,7 @@ pub(super) fn ballast(doc: &Document, body: &RawBody) -> Result<Vec<Ballast>, Sc
         let mass = needed(doc, raw, mass, what, "its `mass` (kg)")?;
         let position = needed(doc, raw, position, what, "its `position` (m)")?;
         Ok(Ballast {
-            mass: doc.number(mass, "mass", MASS)?,
+            mass: doc.number(mass, "mass", BALLAST_MASS)?,
             position: doc.numbers(position, "position", PLACE)?,
             radius: doc.given(radius, "radius", HOLE)?.unwrap_or(0.0),
         })

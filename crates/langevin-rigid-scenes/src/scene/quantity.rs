@@ -72,7 +72,9 @@ pub(super) const DENSITY: Kind = Kind::new("kg/m^3", 1e-9, 1e9);
 /// Of a body, which may be without mass.
 pub(super) const BODY_DENSITY: Kind = Kind::new("kg/m^3", 0.0, 1e9);
 pub(super) const VISCOSITY: Kind = Kind::new("kinematic, m^2/s", 1e-12, 1e12);
+/// Of a body, which may be without.
 pub(super) const MASS: Kind = Kind::new("kg", 0.0, 1e30);
+pub(super) const BALLAST_MASS: Kind = Kind::new("kg", 1e-30, 1e30);
 pub(super) const INERTIA: Kind = Kind::either_way("kg m^2", 1e45);
 pub(super) const TIME_STEP: Kind = Kind::new("s", 1e-12, 1e3);
 pub(super) const DURATION: Kind = Kind::new("s", 1e-12, 1e6);
