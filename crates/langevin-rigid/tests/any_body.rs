@@ -161,7 +161,7 @@ fn fall(number: u32) -> Option<String> {
     };
     let mut state = start;
     // A second of every twentieth, a fifth of it of the others.
-    for _ in 0..if number % 20 == 0 { 60 } else { 12 } {
+    for _ in 0..if number.is_multiple_of(20) { 60 } else { 12 } {
         if let Err(error) = stepper.step(&mut state, FRAME, &noise.into()) {
             return Some(format!("{what}: {error}"));
         }
