@@ -210,13 +210,11 @@ fn the_coin_sinks_and_lands_as_measured() {
             assert!(error.abs() < tolerance, "{found} m after {time} s");
         }
     }
-    let landings = [
-        ("landing_sigma_x", 11.3),
-        ("landing_sigma_z", 8.4),
-        ("median_landing_distance", 15.1),
-    ];
-    for (key, measured) in landings {
-        let found = 100.0 * statistics[key].as_f64().unwrap();
-        assert!((found / measured - 1.0).abs() < 0.25, "{key}: {found} cm");
-    }
+    let landed = |key: &str| 100.0 * statistics[key].as_f64().unwrap();
+    // Measured 11.3 and 8.4 cm along x and z over 18 drops, each to 17 %: in a square tank they are one quantity.
+    let scatter = landed("landing_sigma_x").hypot(landed("landing_sigma_z"));
+    let error = scatter / 11.3f64.hypot(8.4) - 1.0;
+    assert!(error.abs() < 0.15, "{scatter} cm");
+    let error = landed("median_landing_distance") / 15.1 - 1.0;
+    assert!(error.abs() < 0.25, "median distance {error}");
 }
