@@ -10,7 +10,7 @@ pub(crate) const CUBE: [f64; 2] = [0.638423, 0.03926];
 pub(crate) const PLATES: [[f64; 3]; 2] =
     [[0.01, 0.46982, 0.020943], [1.0 / 800.0, 0.45772, 0.020254]];
 
-/// Square prisms with sides of 1 m: length (m), motion along it over the volume; computed at high resolution.
+/// Square prisms with sides of 1 m: length (m), motion along it over the volume; no source is on record.
 pub(crate) const PRISMS: [[f64; 2]; 3] = [[2.0, 0.33442], [4.0, 0.17302], [10.0, 0.07103]];
 
 /// Discs of paper let go in still air.

@@ -100,7 +100,10 @@ impl Closure {
         constants: SeparatedFlow,
     ) -> Option<Self> {
         cholesky(&body.separation.extents)?;
-        let slice = |slice: &Slice| SliceClosure::new(slice, body, density, viscosity, &constants);
+        let friction = slice::skin_friction(body, density, viscosity);
+        let slice = |slice: &Slice| {
+            SliceClosure::new(slice, body, density, viscosity, &constants, &friction)
+        };
         let stokes = [
             body.separation.stokes_translation,
             body.separation.stokes_rotation,

@@ -20,7 +20,7 @@ pub(super) fn airborne(
     section.heading("Seeds");
     section.text(format!(
         "The scene <i>maple-seed</i>, over {SEEDS} seeds of the noise, spun and from rest: medians over the second half of 4 s of \
-         fall; measured ones are of Azuma &amp; Yasuda (1989) and Norberg (1973)."
+         fall, beside the range of measured maple seeds."
     ));
     let prepared = Prepared::new(
         scene::find("maple-seed")?,

@@ -21,7 +21,7 @@ pub(super) fn steady(
     section.heading("Pressure drag");
     section.text(
         "From the surface pressure of the baked potentials, about 1300 triangles, for Reynolds numbers of some thousands; \
-         measured bodies at 1e3 to 1e5 (Hoerner 1965).",
+         measured bodies at 1e3 to 1e5.",
     );
     let ellipsoid = |semi_axes| Shape::Ellipsoid { semi_axes };
     let plate = |size| Shape::Box { size };

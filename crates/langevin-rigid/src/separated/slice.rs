@@ -59,6 +59,7 @@ impl SliceClosure {
         density: f64,
         viscosity: f64,
         constants: &SeparatedFlow,
+        friction: &Mat3,
     ) -> Self {
         let translation = scaled(density, &slice.translation);
         let ([mu, _, lam], axes) = eigen_symmetric(&translation);
@@ -85,7 +86,7 @@ impl SliceClosure {
             drag: shifted(&drag_area, 1.0, -least_drag),
             rise: round_rise(body),
             rise_speed: RISE_REYNOLDS * viscosity / (2.0 * body.half_extents[1]),
-            friction: skin_friction(body, density, viscosity),
+            friction: *friction,
             extents: slice.extents,
             body_extents: body.separation.extents,
             thickness2: dot(across, mat_vec(&slice.extents, across)),
@@ -135,11 +136,11 @@ fn round_rise(body: &Body) -> f64 {
     ROUND_RISE * (1.0 - coefficient).max(0.0)
 }
 
-/// Skin friction of a slice: that of a laminar boundary layer over the surface along which the fluid flows,
+/// Skin friction of each slice: that of a laminar boundary layer over the surface along which the fluid flows,
 /// C_f = 1.328 Re^(-1/2) on the chord (Blasius 1908), each panel by its share along the motion.
 ///
 /// By the root of the speed (kg/(m s)^(1/2)).
-fn skin_friction(body: &Body, density: f64, viscosity: f64) -> Mat3 {
+pub(super) fn skin_friction(body: &Body, density: f64, viscosity: f64) -> Mat3 {
     let mut along = [[0.0; 3]; 3];
     for corners in &body.surface.triangles {
         let [a, b, c] = corners.map(|v| body.surface.vertices[v as usize]);
