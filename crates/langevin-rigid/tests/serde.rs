@@ -163,7 +163,7 @@ fn a_body_that_was_read_is_checked_by_the_stepper() {
     ball.mass = -1.0;
     let error =
         Stepper::new(&returned(&ball), &Fluid::AIR, None, &Settings::default()).unwrap_err();
-    let told = BodyError::NotPositive {
+    let told = BodyError::Negative {
         name: "mass",
         value: -1.0,
     };
