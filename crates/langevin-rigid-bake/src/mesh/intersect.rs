@@ -1,5 +1,7 @@
 //! Where a surface runs through itself, or lies on itself.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -32,41 +34,85 @@ type Boxed = GeomWithData<Rectangle<[f64; 3]>, usize>;
 /// that only share edges or points do not meet, whether or not they share the vertices. Of a crowd beyond
 /// [`PAIRS`] a part is looked at.
 pub(super) fn meetings(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Meeting> {
-    let places: Vec<Corners> = triangles
-        .iter()
-        .map(|t| t.map(|v| vertices[v as usize]))
-        .collect();
-    let [low, high] = bounding_box(places.as_flattened());
-    let touch = TOUCH * norm(sub(high, low));
-    let boxed = |(t, corners): (usize, &Corners)| {
-        let [low, high] = bounding_box(corners);
-        let [low, high] = [low.map(|x| x - touch), high.map(|x| x + touch)];
-        Boxed::new(Rectangle::from_corners(low, high), t)
-    };
-    let tree = RTree::bulk_load(places.iter().enumerate().map(boxed).collect());
-    let facets: Vec<Facet> = places.iter().map(Facet::new).collect();
-    let most = (PAIRS / places.len().max(1)).max(LEAST);
+    let search = Search::new(vertices, triangles, |_| true);
     let first = |t: usize| {
-        let [low, high] = bounding_box(&places[t]);
-        let near = tree.locate_in_envelope_intersecting(AABB::from_corners(low, high));
+        let (other, position) = search.meeting(t).min_by_key(|&(other, _)| other)?;
+        Some(Meeting {
+            triangles: [t, other],
+            position,
+        })
+    };
+    search.triangles().filter_map(first).collect()
+}
+
+/// Whether each triangle meets one that has `moved`, or has moved and meets another.
+pub(super) fn meeting_moved(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    moved: impl Fn(usize) -> bool,
+) -> Vec<bool> {
+    let search = Search::new(vertices, triangles, moved);
+    let meets: Vec<AtomicBool> = triangles.iter().map(|_| AtomicBool::new(false)).collect();
+    search.triangles().for_each(|t| {
+        for (other, _) in search.meeting(t) {
+            meets[t].store(true, Ordering::Relaxed);
+            meets[other].store(true, Ordering::Relaxed);
+        }
+    });
+    meets.into_iter().map(AtomicBool::into_inner).collect()
+}
+
+/// Triangles, and a tree of those that they are compared with.
+struct Search {
+    facets: Vec<Facet>,
+    tree: RTree<Boxed>,
+    touch: f64,
+}
+
+impl Search {
+    fn new(
+        vertices: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        in_tree: impl Fn(usize) -> bool,
+    ) -> Search {
+        let places = triangles.iter().map(|t| t.map(|v| vertices[v as usize]));
+        let facets: Vec<Facet> = places.map(Facet::new).collect();
+        let corners = facets.iter().flat_map(|facet| facet.corners);
+        let [low, high] = bounding_box(&corners.collect::<Vec<_>>());
+        let touch = TOUCH * norm(sub(high, low));
+        let boxed = |t: usize| {
+            let [low, high] = bounding_box(&facets[t].corners);
+            let [low, high] = [low.map(|x| x - touch), high.map(|x| x + touch)];
+            Boxed::new(Rectangle::from_corners(low, high), t)
+        };
+        let members = (0..facets.len()).filter(|&t| in_tree(t)).map(boxed);
+        Search {
+            tree: RTree::bulk_load(members.collect()),
+            facets,
+            touch,
+        }
+    }
+
+    fn triangles(&self) -> impl ParallelIterator<Item = usize> {
+        (0..self.facets.len()).into_par_iter().with_min_len(256)
+    }
+
+    /// What a triangle meets, and where.
+    fn meeting(&self, t: usize) -> impl Iterator<Item = (usize, [f64; 3])> {
+        let most = (PAIRS / self.facets.len()).max(LEAST);
+        let facet = &self.facets[t];
+        let [low, high] = bounding_box(&facet.corners);
+        let near = self
+            .tree
+            .locate_in_envelope_intersecting(AABB::from_corners(low, high));
         near.take(most)
             .map(|other| other.data)
-            .filter(|&other| other != t)
-            .filter_map(|other| {
-                let position = meeting(&facets[t], &facets[other], touch)?;
+            .filter(move |&other| other != t)
+            .filter_map(move |other| {
+                let position = meeting(facet, &self.facets[other], self.touch)?;
                 Some((other, position))
             })
-            .min_by_key(|&(other, _)| other)
-            .map(|(other, position)| Meeting {
-                triangles: [t, other],
-                position,
-            })
-    };
-    (0..places.len())
-        .into_par_iter()
-        .with_min_len(256)
-        .filter_map(first)
-        .collect()
+    }
 }
 
 /// A triangle with its plane and, in it, the inward normals of its sides.
@@ -78,12 +124,12 @@ struct Facet {
 }
 
 impl Facet {
-    fn new(corners: &Corners) -> Facet {
-        let [a, b, c] = *corners;
+    fn new(corners: Corners) -> Facet {
+        let [a, b, c] = corners;
         let normal = unit_or_zero(cross(sub(b, a), sub(c, a)));
         let inward = [[a, b], [b, c], [c, a]].map(|[p, q]| unit_or_zero(cross(normal, sub(q, p))));
         Facet {
-            corners: *corners,
+            corners,
             normal,
             inward,
         }
@@ -103,8 +149,7 @@ impl Facet {
 
     /// Where an edge of the other goes through this one. An end on the plane counts as above it, so that touching
     /// from outside is not passing through; then it must be well inside, since surfaces may share edges.
-    fn pierced(&self, other: &Facet, touch: f64) -> Option<[f64; 3]> {
-        let heights = self.heights(other);
+    fn pierced(&self, other: &Facet, heights: [f64; 3], touch: f64) -> Option<[f64; 3]> {
         let above = heights.map(|h| h > -touch);
         let crossing = |k: usize| {
             let next = (k + 1) % 3;
@@ -124,8 +169,8 @@ impl Facet {
     }
 
     /// Whether the other lies in the plane of this one and on it.
-    fn covers(&self, other: &Facet, touch: f64) -> bool {
-        let in_plane = self.heights(other).iter().all(|h| h.abs() <= touch);
+    fn covers(&self, other: &Facet, heights: [f64; 3], touch: f64) -> bool {
+        let in_plane = heights.iter().all(|h| h.abs() <= touch);
         in_plane && self.overlaps_in_plane(other, touch) && other.overlaps_in_plane(self, touch)
     }
 
@@ -148,10 +193,24 @@ fn unit_or_zero(a: [f64; 3]) -> [f64; 3] {
     }
 }
 
+/// Whether something of those heights over a plane is clear of it.
+fn on_one_side(heights: [f64; 3], touch: f64) -> bool {
+    heights.iter().all(|&h| h > touch) || heights.iter().all(|&h| h < -touch)
+}
+
 fn meeting(a: &Facet, b: &Facet, touch: f64) -> Option<[f64; 3]> {
-    let through = a.pierced(b, touch).or_else(|| b.pierced(a, touch));
+    let above_a = a.heights(b);
+    if on_one_side(above_a, touch) {
+        return None;
+    }
+    let above_b = b.heights(a);
+    if on_one_side(above_b, touch) {
+        return None;
+    }
+    let through = a.pierced(b, above_a, touch);
+    let through = through.or_else(|| b.pierced(a, above_b, touch));
     through.or_else(|| {
-        let on = a.covers(b, touch) || b.covers(a, touch);
+        let on = a.covers(b, above_a, touch) || b.covers(a, above_b, touch);
         on.then(|| {
             let [smaller, _] = if extent(a) < extent(b) {
                 [a, b]

@@ -12,7 +12,7 @@ mod triangle;
 use rayon::prelude::*;
 
 use super::check::has_no_area;
-use super::intersect::meetings;
+use super::intersect::meeting_moved;
 use super::vector::{add, norm, scale, sub};
 use super::{MeshError, TriMesh};
 use grid::Grid;
@@ -140,21 +140,22 @@ fn settled(
         .map(|&v| inward(grid, v, offset))
         .collect();
     let mut share = vec![1.0; at_offset.len()];
+    let mut has_moved = vec![true; at_offset.len()];
     loop {
         let place = |v: usize| add(at_offset[v], scale(share[v], moves[v]));
         let places: Vec<[f64; 3]> = (0..share.len()).map(place).collect();
-        let mut again = false;
-        let is_flat = |t: &usize| has_no_area(triangles[*t].map(|v| places[v as usize]));
-        let meet = meetings(&places, triangles);
-        let meet = meet.iter().flat_map(|meeting| meeting.triangles);
-        for t in meet.chain((0..triangles.len()).filter(is_flat)) {
-            for v in triangles[t] {
-                let share = &mut share[v as usize];
-                again |= *share > 0.0;
-                *share = if *share > 0.3 { 0.5 * *share } else { 0.0 };
-            }
+        let moved = |t: usize| triangles[t].iter().any(|&v| has_moved[v as usize]);
+        let meets = meeting_moved(&places, triangles, moved);
+        let is_flat = |t: usize| has_no_area(triangles[t].map(|v| places[v as usize]));
+        let back = (0..triangles.len()).filter(|&t| meets[t] || is_flat(t));
+        let back: Vec<u32> = back.flat_map(|t| triangles[t]).collect();
+        has_moved.fill(false);
+        for v in back {
+            let (v, kept) = (v as usize, share[v as usize]);
+            has_moved[v] |= kept > 0.0;
+            share[v] = if kept > 0.3 { 0.5 * kept } else { 0.0 };
         }
-        if !again {
+        if !has_moved.contains(&true) {
             return places;
         }
     }
