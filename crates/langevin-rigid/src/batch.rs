@@ -380,11 +380,16 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Symmetry>(
     L::Scalar: Precision,
 {
     let lanes = first..first + L::COUNT;
+    // Columns that a model does not use stay out of the processor's way.
+    let fluctuates = equations.loads.fluctuates();
     let before = Motion {
         position: load_columns(simd, &pack.position, first),
         orientation: load_columns(simd, &pack.orientation, first),
         xi: load_columns(simd, &pack.velocity, first),
-        fluctuation: load_columns(simd, &pack.fluctuation, first),
+        fluctuation: match fluctuates {
+            true => load_columns(simd, &pack.fluctuation, first),
+            false => [L::splat(simd, 0.0); 6],
+        },
     };
     let noise = Noise {
         seed: pack.seed,
@@ -412,7 +417,9 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Symmetry>(
     store_columns(&mut pack.position, first, &after.position);
     store_columns(&mut pack.orientation, first, &after.orientation);
     store_columns(&mut pack.velocity, first, &after.xi);
-    store_columns(&mut pack.fluctuation, first, &after.fluctuation);
+    if fluctuates {
+        store_columns(&mut pack.fluctuation, first, &after.fluctuation);
+    }
     for place in lanes.clone() {
         pack.time[place] += dt;
         pack.step[place] = pack.step[place].wrapping_add(1);

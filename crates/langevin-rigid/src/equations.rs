@@ -38,6 +38,13 @@ pub(crate) enum FluidLoads<F: Symmetry = General, R: Real = f64> {
     Separated(Separated<F, R>),
 }
 
+impl<F: Symmetry, R: Real> FluidLoads<F, R> {
+    /// Whether they move [`Motion::fluctuation`].
+    pub(crate) fn fluctuates(&self) -> bool {
+        matches!(self, FluidLoads::Separated(_))
+    }
+}
+
 #[derive(Debug, Clone)]
 pub(crate) struct Separated<F: Symmetry = General, R: Real = f64> {
     pub(crate) closure: Closure<F, R>,

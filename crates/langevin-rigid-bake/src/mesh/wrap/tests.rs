@@ -1,4 +1,5 @@
 use super::*;
+use crate::mesh::intersect::meetings;
 use crate::shapes::Shape;
 
 fn wrapped(mesh: &TriMesh, size: f64) -> TriMesh {
