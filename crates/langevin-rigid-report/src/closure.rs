@@ -27,7 +27,8 @@ pub(crate) fn section(options: &Options, progress: &dyn Progress) -> Result<Sect
         papers::papers,
         discs::discs,
         strips::strips,
-        airborne::airborne,
+        airborne::seeds,
+        airborne::airplane,
     ] {
         if progress.cancelled() {
             return Err(ReportError::Cancelled);

@@ -2,11 +2,11 @@
 //! energy lets them.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use langevin_rigid::linalg::vector::{norm, scale};
+use langevin_rigid::linalg::vector::{norm, scale, sub};
 use langevin_rigid::linalg::{Vec3, quat_from_rotation_vector};
 use langevin_rigid::{
-    Body, BodyError, Fluid, GRAVITY, Input, Model, NoiseStream, Settings, SetupError, State,
-    Stepper,
+    Body, BodyError, Fluid, GRAVITY, Input, Model, NoiseStream, SeparatedFlow, Settings,
+    SetupError, State, Stepper,
 };
 
 const HONEY: Fluid = Fluid {
@@ -202,4 +202,52 @@ fn ten_thousand_bodies_move_as_their_energy_lets_them() {
         failures.len(),
         failures.join("\n")
     );
+}
+
+/// What a body at random is, its mean speed over the last four of eight seconds without turbulence in steps of a
+/// frame over `parts`, and how far its speed is from that at most, as a share.
+fn settled(number: u32, parts: u32) -> (String, f64, f64) {
+    let mut dice = Dice::of(number);
+    let (what, body) = dice.body();
+    let (fluid, mut state) = (dice.fluid(), dice.release());
+    let settings = Settings {
+        separated: SeparatedFlow {
+            turbulence_intensity: 0.0,
+            ..SeparatedFlow::default()
+        },
+        ..Settings::default()
+    };
+    let stepper = Stepper::new(&body, &fluid, None, &settings).unwrap();
+    let step = FRAME / f64::from(parts);
+    let mut fall_for = |steps: u32| -> Vec<State> {
+        let mut next = |_| {
+            stepper.step(&mut state, step, &Input::default()).unwrap();
+            state
+        };
+        (0..steps * parts).map(&mut next).collect()
+    };
+    let middle = *fall_for(240).last().unwrap();
+    let late = fall_for(240);
+    let end = late.last().unwrap();
+    let mean = norm(sub(end.position, middle.position)) / (end.time - middle.time);
+    let off = late.iter().map(|s| (norm(s.velocity) / mean - 1.0).abs());
+    let what = format!("{number}: {what} in {} kg/m^3", fluid.density);
+    (what, mean, off.fold(0.0, f64::max))
+}
+
+#[test]
+fn what_falls_steadily_does_so_at_the_step_of_a_frame() {
+    let mut steady = 0;
+    for number in 20_000..20_080 {
+        let (what, fine, off) = settled(number, 10);
+        if off < 0.01 {
+            steady += 1;
+            let (_, coarse, _) = settled(number, 1);
+            assert!(
+                (coarse / fine - 1.0).abs() < 0.1,
+                "{what}: {coarse} m/s, {fine} m/s at a tenth of the step"
+            );
+        }
+    }
+    assert!(steady >= 15, "{steady}");
 }

@@ -1,18 +1,19 @@
 //! Bodies of the built-in scenes beside what was measured of their kind.
 
-use langevin_rigid::{NoiseStream, State};
+use langevin_rigid::linalg::vector::norm;
+use langevin_rigid::{Model, NoiseStream, State};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene;
 
-use super::drop::{fall, mean, median};
+use super::drop::{between, fall, mean, median};
 use crate::section::Section;
 use crate::{Options, ReportError};
 
 /// Seeds of each scene.
 const SEEDS: u64 = 10;
 
-pub(super) fn airborne(
+pub(super) fn seeds(
     section: &mut Section,
     options: &Options,
     progress: &dyn Progress,
@@ -55,6 +56,56 @@ pub(super) fn airborne(
     ];
     section.table("seeds", &head, &rows);
     Ok(())
+}
+
+/// Speed and height at which the airplane is thrown (m/s, m).
+const THROW: f64 = 2.0;
+const HEIGHT: f64 = 8.0;
+
+pub(super) fn airplane(
+    section: &mut Section,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<(), ReportError> {
+    section.heading("A folded airplane");
+    section.text(format!(
+        "The scene <i>airplane</i> thrown level at {THROW} m/s from {HEIGHT} m, over {SEEDS} seeds of the noise: medians over the \
+         second half of the fall."
+    ));
+    let mut scene = scene::find("airplane")?;
+    scene.settings.model = Model::Separated;
+    scene.release.velocity = [THROW, 0.0, 0.0];
+    scene.release.position[1] = HEIGHT;
+    let prepared = Prepared::new(scene, options.cache.as_deref(), progress)?;
+    let flights: Vec<[f64; 3]> = (0..SEEDS).map(|seed| flight(&prepared, seed)).collect();
+    let row = ["speed", "ratio", "incidence"].into_iter().enumerate();
+    let row = row.map(|(k, what)| {
+        let middle = median(flights.iter().map(|f| f[k]).collect());
+        let key = format!("airplane.{what}");
+        section.quote(key, middle, 3).to_string()
+    });
+    let row: Vec<String> = row.collect();
+    let head = ["speed, m/s", "glide ratio", "incidence, degrees"];
+    section.table("airplane", &head, &[row]);
+    Ok(())
+}
+
+/// Mean speed (m/s), way along over way down, and mean angle between the wings and the flight (degrees).
+fn flight(prepared: &Prepared, seed: u64) -> [f64; 3] {
+    let scene = prepared.scene();
+    let noise = NoiseStream { seed, body: 0 };
+    let steps = (10.0 / scene.time_step) as u32;
+    let landed = |state: &State| state.position[1] < 0.0;
+    let (stepper, release) = (prepared.stepper(), scene.release);
+    let states = fall(stepper, release, scene.time_step, steps, noise, landed);
+    let late = &states[states.len() / 2..];
+    let [x, y, z] = between(&late[0], &late[late.len() - 1]);
+    let along = libm::hypot(x, z);
+    let incidence = mean(late.iter().map(|s| {
+        let [_, up, _] = s.velocity;
+        libm::asin((-up / norm(s.velocity)).clamp(-1.0, 1.0))
+    }));
+    [libm::hypot(along, y), along / -y, incidence.to_degrees()]
 }
 
 /// Turns a second about the vertical, speed of sinking (m/s), angle of the span above level (degrees), and turns a second

@@ -61,10 +61,12 @@ pub(super) fn sphere(
     Ok(())
 }
 
-/// A thick body: name, shape, the longest, middle and shortest size (m), density, fluid.
+/// A thick body.
 struct Solid {
     name: &'static str,
     shape: Shape,
+    /// The longest and shortest size of its largest silhouette and the shortest of its smallest (m), as Bagheri &
+    /// Bonadonna measure particles.
     sizes: [f64; 3],
     density: f64,
     fluid: Fluid,
@@ -104,13 +106,28 @@ impl Solid {
             ];
             add(name, Shape::Ellipsoid { semi_axes }, sizes, &dense);
         }
-        for (name, length) in [("cylinder, L/D 3", 0.03), ("cylinder, L/D 5", 0.05)] {
+        let dense = [(1200.0, water), (8000.0, water), (1200.0, air)];
+        let side = 0.01;
+        let cube = Shape::Box { size: [side; 3] };
+        // Along its diagonal a cube shows a regular hexagon.
+        let across = [
+            2.0 * (2.0f64 / 3.0).sqrt() * side,
+            2.0f64.sqrt() * side,
+            side,
+        ];
+        add("cube", cube, across, &dense);
+        for (name, slenderness) in [
+            ("cylinder, L/D 1", 1.0),
+            ("cylinder, L/D 3", 3.0),
+            ("cylinder, L/D 5", 5.0),
+        ] {
+            let (diameter, height) = (side, slenderness * side);
             let shape = Shape::Cylinder {
-                radius: 0.005,
-                height: length,
+                radius: 0.5 * diameter,
+                height,
             };
-            let dense = [(1200.0, water), (8000.0, water), (1200.0, air)];
-            add(name, shape, [length, 0.01, 0.01], &dense);
+            let sizes = [libm::hypot(height, diameter), diameter, diameter];
+            add(name, shape, sizes, &dense);
         }
         solids
     }
