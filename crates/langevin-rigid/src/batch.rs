@@ -13,6 +13,7 @@ use crate::noise::{Counter, NoiseStream};
 use crate::state::State;
 use crate::stepper::{StepError, Stepper};
 use crate::symmetry::{General, Symmetric, Symmetry};
+use crate::wind::{Local, Wind};
 
 /// Bodies in a [`Pack`]: a multiple of the lanes of every processor.
 const PACK: usize = 16;
@@ -28,7 +29,7 @@ impl Precision for f64 {}
 impl Precision for f32 {}
 
 mod sealed {
-    use super::{ForcedOf, Pack, StepError, Stepper};
+    use super::{Acting, Pack, StepError, Stepper};
 
     /// What a precision must do.
     pub trait Sealed: Sized + 'static {
@@ -39,7 +40,7 @@ mod sealed {
             stepper: &Stepper,
             packs: &mut [Pack<Self>],
             dt: f64,
-            forced: &mut ForcedOf<'_, Self>,
+            acting: &mut Acting<'_>,
             stopped: &mut Vec<(u32, StepError)>,
         );
     }
@@ -62,15 +63,15 @@ macro_rules! precision {
                 stepper: &Stepper,
                 packs: &mut [Pack<Self>],
                 dt: f64,
-                forced: &mut ForcedOf<'_, Self>,
+                acting: &mut Acting<'_>,
                 stopped: &mut Vec<(u32, StepError)>,
             ) {
                 if stepper.symmetric.is_some() {
                     dispatch!(Level::new(), simd => step_packs::<_, $lanes<_>, Symmetric>(
-                        simd, stepper, packs, dt, forced, stopped));
+                        simd, stepper, packs, dt, acting, stopped));
                 } else {
                     dispatch!(Level::new(), simd => step_packs::<_, $lanes<_>, General>(
-                        simd, stepper, packs, dt, forced, stopped));
+                        simd, stepper, packs, dt, acting, stopped));
                 }
             }
         }
@@ -114,11 +115,22 @@ pub struct Pack<P = f64> {
 
 /// The input of a body from its number and its state.
 pub(crate) type Inputs<'a> = dyn FnMut(u32, &State) -> Input + 'a;
-/// What acts on the bodies of a pack, if anything does.
-pub(crate) type ForcedOf<'a, P> = dyn FnMut(&Pack<P>) -> Option<Forced<P>> + 'a;
+/// What acts on bodies over a step besides what they are in always.
+pub enum Acting<'a> {
+    Nothing,
+    Inputs(&'a mut Inputs<'a>),
+    Wind(InWind<'a>),
+}
+
+/// A wind, and how much later in it each body is than the one before it (s).
+#[derive(Clone, Copy)]
+pub struct InWind<'a> {
+    pub(crate) wind: &'a Wind,
+    pub(crate) apart: f64,
+}
 
 /// What acts on the bodies of a pack over a step.
-pub struct Forced<P> {
+struct Forced<P> {
     inputs: [Input; PACK],
     /// A bit for each body whose input is finite.
     sound: u64,
@@ -226,6 +238,13 @@ impl<P: Precision> Batch<P> {
     }
 }
 
+impl InWind<'_> {
+    /// When it is for a body (s).
+    pub(crate) fn time(&self, time: f64, body: u32) -> f64 {
+        time + self.apart * f64::from(body)
+    }
+}
+
 impl<P: Precision> Pack<P> {
     fn new(seed: u64) -> Self {
         let mut pack = Self {
@@ -300,12 +319,55 @@ impl<P: Precision> Pack<P> {
         Input { noise, ..input }
     }
 
-    /// What acts on its bodies, as `inputs` tells; none where nothing does.
-    pub(crate) fn forced(&self, inputs: &mut Inputs<'_>) -> Option<Forced<P>> {
+    /// What its bodies meet, as `inputs` tells.
+    fn told(&self, inputs: &mut Inputs<'_>) -> [Input; PACK] {
         let mut each = [Input::default(); PACK];
         for (place, input) in each.iter_mut().enumerate().take(self.taken) {
             *input = inputs(self.bodies[place], &self.state(place));
         }
+        each
+    }
+
+    /// The wind that its bodies meet, on top of a stream (m/s); in double precision whatever theirs.
+    #[inline(always)]
+    fn blown<S: Simd>(&self, simd: S, in_wind: &InWind<'_>, stream: Vec3) -> [Input; PACK] {
+        let position = self.position.map(|column| column.map(P::to_f64));
+        let mut time = self.time;
+        for (time, body) in time.iter_mut().zip(self.bodies) {
+            *time = in_wind.time(*time, body);
+        }
+        let mut velocity = [[0.0; PACK]; 3];
+        let mut gradient = [[[0.0; PACK]; 3]; 3];
+        let mut rate = [[0.0; PACK]; 3];
+        let count = <Doubles<S> as Lanes<S>>::COUNT;
+        for first in (0..self.taken).step_by(count) {
+            let at = load_columns::<S, Doubles<S>, 3>(simd, &position, first);
+            let now = <Doubles<S> as Lanes<S>>::load(simd, &time[first..first + count]);
+            let local = in_wind.wind.closed_forms(&at, now);
+            store_columns::<S, Doubles<S>, 3>(&mut velocity, first, &local.velocity);
+            store_columns::<S, Doubles<S>, 3>(&mut rate, first, &local.rate);
+            for i in 0..3 {
+                store_columns::<S, Doubles<S>, 3>(&mut gradient[i], first, &local.gradient[i]);
+            }
+        }
+        let mut each = [Input::default(); PACK];
+        for (place, input) in each.iter_mut().enumerate().take(self.taken) {
+            let of = |columns: &[[f64; PACK]; 3]| columns.map(|column| column[place]);
+            let mut local = Local {
+                velocity: of(&velocity),
+                gradient: [of(&gradient[0]), of(&gradient[1]), of(&gradient[2])],
+                rate: of(&rate),
+            };
+            in_wind
+                .wind
+                .add_tables(&mut local, of(&position), time[place]);
+            input.flow = local.flow(stream);
+        }
+        each
+    }
+
+    /// `each` in columns; none where nothing acts.
+    fn forced(&self, each: [Input; PACK]) -> Option<Forced<P>> {
         if !each.iter().any(|input| Forcing::of(input).is_some()) {
             return None;
         }
@@ -346,14 +408,19 @@ fn step_packs<S: Simd, L: Lanes<S>, F: Symmetry>(
     stepper: &Stepper,
     packs: &mut [Pack<L::Scalar>],
     dt: f64,
-    forced: &mut ForcedOf<'_, L::Scalar>,
+    acting: &mut Acting<'_>,
     stopped: &mut Vec<(u32, StepError)>,
 ) where
     L::Scalar: Precision,
 {
     let equations = stepper.equations.lift::<F, L>(L::splat(simd, 0.0));
+    let stream = stepper.equations.current.unwrap_or_default();
     for pack in packs {
-        let forced = forced(pack);
+        let forced = match acting {
+            Acting::Nothing => None,
+            Acting::Inputs(inputs) => pack.forced(pack.told(inputs)),
+            Acting::Wind(in_wind) => pack.forced(pack.blown(simd, in_wind, stream)),
+        };
         for first in (0..pack.taken).step_by(L::COUNT) {
             let forced = forced.as_ref();
             step_lanes::<S, L, F>(simd, stepper, &equations, pack, first, dt, forced, stopped);
@@ -494,6 +561,7 @@ fn store_columns<S: Simd, L: Lanes<S>, const N: usize>(
 #[cfg(target_arch = "x86_64")]
 mod tests {
     use super::*;
+    use crate::wind::{GustSettings, Gusts};
     use crate::{Body, Fluid, Model, Settings};
 
     fn stepper() -> Stepper {
@@ -520,7 +588,7 @@ mod tests {
         Stepper::new(&body, &Fluid::WATER, None, &settings).unwrap()
     }
 
-    fn run<S: Simd>(simd: S) -> Batch {
+    fn run<S: Simd>(simd: S, wind: Option<&Wind>) -> Batch {
         let stepper = stepper();
         let mut batch = Batch::new(3);
         for body in 0..PACK {
@@ -532,8 +600,18 @@ mod tests {
         let mut stopped = Vec::new();
         for _ in 0..50 {
             let packs = batch.packs_mut();
-            let still = &mut |_: &Pack| None;
-            step_packs::<S, Doubles<S>, General>(simd, &stepper, packs, 5e-3, still, &mut stopped);
+            let mut acting = match wind {
+                Some(wind) => Acting::Wind(InWind { wind, apart: 0.3 }),
+                None => Acting::Nothing,
+            };
+            step_packs::<S, Doubles<S>, General>(
+                simd,
+                &stepper,
+                packs,
+                5e-3,
+                &mut acting,
+                &mut stopped,
+            );
         }
         assert!(stopped.is_empty());
         batch
@@ -542,11 +620,19 @@ mod tests {
     #[test]
     fn every_width_gives_the_same_bits() {
         let level = Level::new();
-        let two = level.as_sse2().map(run);
-        assert!(two.is_some());
-        let wider = [level.as_avx2().map(run), level.as_avx512().map(run)];
-        for batch in wider.into_iter().flatten() {
-            assert_eq!(Some(batch), two);
+        let mut gusty = Wind::default();
+        let gusts = Gusts::new(&GustSettings::default()).unwrap();
+        gusty.add(gusts).unwrap();
+        for wind in [None, Some(&gusty)] {
+            let two = level.as_sse2().map(|simd| run(simd, wind));
+            assert!(two.is_some());
+            let wider = [
+                level.as_avx2().map(|simd| run(simd, wind)),
+                level.as_avx512().map(|simd| run(simd, wind)),
+            ];
+            for batch in wider.into_iter().flatten() {
+                assert_eq!(Some(batch), two);
+            }
         }
     }
 }

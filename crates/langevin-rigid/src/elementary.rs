@@ -34,6 +34,22 @@ pub(crate) fn sin_cos_eighth<R: Real>(x: R) -> (R, R) {
     )
 }
 
+/// Sine and cosine of any angle `x` in turns, to 2e-10; |x| below 2^20.
+#[inline(always)]
+pub(crate) fn sin_cos_turns<R: Real>(x: R) -> (R, R) {
+    let turn = x - x.nearest();
+    let quarter = (turn * x.of(4.0)).nearest();
+    let (s, c) = sin_cos_eighth(turn - quarter * x.of(0.25));
+    let size = quarter.abs();
+    let odd = x.of(0.5).less(size) & size.less(x.of(1.5));
+    let (sin, cos) = (R::choose(odd, c, s), R::choose(odd, s, c));
+    let (half, more) = (x.of(0.5), x.of(1.5));
+    (
+        R::choose(quarter.less(-half) | more.less(quarter), -sin, sin),
+        R::choose(half.less(quarter) | quarter.less(-more), -cos, cos),
+    )
+}
+
 /// `sin(a/2)/a` and `cos(a/2)` from `a^2`, to rounding.
 #[inline(always)]
 pub(crate) fn half_angle<R: Real>(a2: R) -> (R, R) {
@@ -164,6 +180,17 @@ mod tests {
             assert!((c - libm::cos(std::f64::consts::TAU * x)).abs() < 3e-10);
         }
         assert!((ln(1e-10) - libm::log(1e-10)).abs() < 3e-10);
+    }
+
+    #[test]
+    fn a_circle_is_good_all_around_and_many_times() {
+        for i in -40_000..40_000 {
+            let x = f64::from(i) / 1024.0;
+            let (s, c) = sin_cos_turns(x);
+            let angle = std::f64::consts::TAU * x;
+            assert!((s - libm::sin(angle)).abs() < 1e-9, "{x}: {s}");
+            assert!((c - libm::cos(angle)).abs() < 1e-9, "{x}: {c}");
+        }
     }
 
     #[test]

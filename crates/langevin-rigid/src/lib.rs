@@ -101,6 +101,7 @@ mod symmetry;
 mod thin_card;
 pub mod turbulence;
 mod wake;
+pub mod wind;
 mod world;
 
 pub use bake::{Bake, BakeError};

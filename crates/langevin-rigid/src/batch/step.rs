@@ -1,9 +1,10 @@
 //! Steps of a batch.
 
-use super::{Batch, BatchError, Inputs, Pack, Precision};
+use super::{Acting, Batch, BatchError, InWind, Pack, Precision};
 use crate::input::Input;
 use crate::state::State;
 use crate::stepper::{StepError, Stepper};
+use crate::wind::Wind;
 
 impl Stepper {
     /// Advances every body of `batch` by `dt` (s), each with the noise of its own step number, in steady fluid.
@@ -53,6 +54,48 @@ impl Stepper {
         self.step_packs_with(batch.packs_mut(), dt, inputs)
     }
 
+    /// The same in a wind, which is evaluated in lanes as well.
+    ///
+    /// Body n of the run meets the wind as it is n `apart` (s) after its own time: none, and all bodies are in one place
+    /// and time together; an hour, and each has gusts of its own.
+    ///
+    /// In double precision a body has the same bits as by [`Stepper::step`] with the flow that [`Wind::flow`] gives there
+    /// and then.
+    ///
+    /// ```
+    /// use langevin_rigid::wind::{GustSettings, Gusts, Wind};
+    /// use langevin_rigid::{Batch, Body, Fluid, Input, NoiseStream, Settings, State, Stepper};
+    /// let disc = Body::disc(0.05, 0.001, 500.0)?;
+    /// let stepper = Stepper::new(&disc, &Fluid::AIR, None, &Settings::default())?;
+    /// let mut wind = Wind::default();
+    /// wind.add(Gusts::new(&GustSettings { rms: 0.4, length: 2.0, ..GustSettings::default() })?)?;
+    /// let mut batch = Batch::<f64>::new(7);
+    /// for _ in 0..100 {
+    ///     batch.push(&State::default());
+    /// }
+    /// let mut alone = State::default();
+    /// for _ in 0..10 {
+    ///     let flow = wind.flow(alone.position, alone.time, Fluid::AIR.velocity);
+    ///     let noise = NoiseStream { seed: 7, body: 3 };
+    ///     stepper.step(&mut alone, 1e-2, &Input { flow, noise, ..Input::default() })?;
+    ///     stepper.step_batch_in(&mut batch, 1e-2, &wind, 0.0)?;
+    /// }
+    /// assert_eq!(batch.state(3), Some(alone));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Stepper::step_batch`].
+    pub fn step_batch_in<P: Precision>(
+        &self,
+        batch: &mut Batch<P>,
+        dt: f64,
+        wind: &Wind,
+        apart: f64,
+    ) -> Result<(), BatchError> {
+        self.step_packs_in(batch.packs_mut(), dt, wind, apart)
+    }
+
     /// [`Stepper::step_batch`] for some packs of a batch, so that a host can share them among its own threads.
     ///
     /// # Errors
@@ -62,7 +105,7 @@ impl Stepper {
         packs: &mut [Pack<P>],
         dt: f64,
     ) -> Result<(), BatchError> {
-        self.each_pack(packs, dt, None)
+        self.each_pack(packs, dt, Acting::Nothing)
     }
 
     /// [`Stepper::step_batch_with`] for some packs of a batch.
@@ -75,14 +118,32 @@ impl Stepper {
         dt: f64,
         mut inputs: impl FnMut(u32, &State) -> Input,
     ) -> Result<(), BatchError> {
-        self.each_pack(packs, dt, Some(&mut inputs))
+        self.each_pack(packs, dt, Acting::Inputs(&mut inputs))
+    }
+
+    /// [`Stepper::step_batch_in`] for some packs of a batch.
+    ///
+    /// # Errors
+    /// As [`Stepper::step_batch`].
+    pub fn step_packs_in<P: Precision>(
+        &self,
+        packs: &mut [Pack<P>],
+        dt: f64,
+        wind: &Wind,
+        apart: f64,
+    ) -> Result<(), BatchError> {
+        let acting = match wind.is_empty() {
+            true => Acting::Nothing,
+            false => Acting::Wind(InWind { wind, apart }),
+        };
+        self.each_pack(packs, dt, acting)
     }
 
     fn each_pack<P: Precision>(
         &self,
         packs: &mut [Pack<P>],
         dt: f64,
-        mut inputs: Option<&mut Inputs<'_>>,
+        mut acting: Acting<'_>,
     ) -> Result<(), BatchError> {
         let mut stopped = Vec::new();
         match self.paper() {
@@ -91,13 +152,20 @@ impl Stepper {
                 stopped.extend(places.map(|body| (body, StepError::TimeStep(dt))));
             }
             None => {
-                let mut forced = |pack: &Pack<P>| pack.forced(inputs.as_mut()?);
-                P::step(self, packs, dt, &mut forced, &mut stopped);
+                P::step(self, packs, dt, &mut acting, &mut stopped);
             }
             Some(_) => {
-                let mut input = |body, state: &State| match &mut inputs {
-                    Some(inputs) => inputs(body, state),
-                    None => Input::default(),
+                let stream = self.equations.current.unwrap_or_default();
+                let mut input = |body, state: &State| match &mut acting {
+                    Acting::Nothing => Input::default(),
+                    Acting::Inputs(inputs) => inputs(body, state),
+                    Acting::Wind(in_wind) => {
+                        let time = in_wind.time(state.time, body);
+                        Input {
+                            flow: in_wind.wind.flow(state.position, time, stream),
+                            ..Input::default()
+                        }
+                    }
                 };
                 for pack in packs {
                     pack.step_each(&mut input, &mut stopped, |state, input| {

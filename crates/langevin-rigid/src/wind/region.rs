@@ -1,0 +1,95 @@
+//! Where a field is.
+
+use super::{WindError, finite, positive};
+use crate::linalg::{Vec3, dot, each};
+use crate::real::Real;
+
+/// A part of space with a soft edge: outside it a field is zero, inside whole, and in the edge it goes from one to the
+/// other as 3 q^2 - 2 q^3.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Region {
+    /// A box along the axes of the world.
+    Box {
+        /// Its middle (m).
+        centre: Vec3,
+        /// Its size along x, y and z (m).
+        size: Vec3,
+        /// Thickness of the edge, inwards (m).
+        edge: f64,
+    },
+    /// A ball.
+    Sphere {
+        /// Its middle (m).
+        centre: Vec3,
+        /// Its radius (m).
+        radius: f64,
+        /// Thickness of the edge, inwards (m).
+        edge: f64,
+    },
+}
+
+const NAME: &str = "region of a wind";
+
+impl Region {
+    pub(super) fn check(&self) -> Result<(), WindError> {
+        let (centre, edge) = match self {
+            Self::Box { centre, size, edge } => {
+                for &size in size {
+                    positive(NAME, "size", size)?;
+                }
+                (centre, edge)
+            }
+            Self::Sphere {
+                centre,
+                radius,
+                edge,
+            } => {
+                positive(NAME, "radius", *radius)?;
+                (centre, edge)
+            }
+        };
+        finite(NAME, "centre", centre)?;
+        positive(NAME, "edge", *edge)
+    }
+
+    /// Share of a field that is here, and its gradient (1/m).
+    #[inline(always)]
+    pub(super) fn weight<R: Real>(&self, position: &Vec3<R>) -> (R, Vec3<R>) {
+        let like = position[0];
+        match self {
+            Self::Box { centre, size, edge } => {
+                let along = |i: usize| {
+                    let away = position[i] - like.of(centre[i]);
+                    let (weight, slope) = step(like.of(0.5 * size[i]) - away.abs(), *edge);
+                    (weight, R::choose(away.less(like.of(0.0)), slope, -slope))
+                };
+                let [(x, dx), (y, dy), (z, dz)] = [along(0), along(1), along(2)];
+                (x * y * z, [dx * y * z, x * dy * z, x * y * dz])
+            }
+            Self::Sphere {
+                centre,
+                radius,
+                edge,
+            } => {
+                let away = each(like, |i| position[i] - like.of(centre[i]));
+                let r = dot(away, away).sqrt();
+                let (weight, slope) = step(like.of(*radius) - r, *edge);
+                let inwards = -slope / r.max(like.of(1e-300));
+                (weight, away.map(|x| inwards * x))
+            }
+        }
+    }
+}
+
+/// From 0 outside to 1 at the depth `edge`, and its derivative.
+#[inline(always)]
+fn step<R: Real>(depth: R, edge: f64) -> (R, R) {
+    let (zero, one) = (depth.of(0.0), depth.of(1.0));
+    let q = (depth * depth.of(1.0 / edge)).max(zero).min(one);
+    (
+        q * q * (depth.of(3.0) - q - q),
+        depth.of(6.0 / edge) * q * (one - q),
+    )
+}
