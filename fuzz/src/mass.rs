@@ -207,7 +207,7 @@ fn options(numbers: &mut Numbers, size: f64) -> Options {
         fill: fill.then(|| numbers.below(50)),
         thickness: thickness.then(|| numbers.coordinate()),
         triangles: triangles.then(|| numbers.below(TRIANGLES)),
-        wrap: wrap.then(|| size * numbers.between(0.4, 2.0)),
+        wrap: wrap.then(|| size * numbers.between(0.8, 2.0)),
         largest,
     }
 }

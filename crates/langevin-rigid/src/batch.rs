@@ -5,7 +5,7 @@ mod step;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::equations::{Equations, Noise, Stepped};
-use crate::input::{Forcing, Input};
+use crate::input::{Flow, Forcing, Input, Wrench};
 use crate::kirchhoff::Motion;
 use crate::lanes::{Doubles, Lanes, Singles};
 use crate::linalg::{Vec3, each, join};
@@ -131,15 +131,35 @@ pub struct InWind<'a> {
 
 /// What acts on the bodies of a pack over a step.
 struct Forced<P> {
-    inputs: [Input; PACK],
-    /// A bit for each body whose input is finite.
+    /// A bit for each body for which it is finite.
     sound: u64,
     velocity: [[P; PACK]; 3],
     /// Row by row; none where no body has one.
     gradient: Option<[[[P; PACK]; 3]; 3]>,
     acceleration: [[P; PACK]; 3],
-    force: [[P; PACK]; 3],
-    torque: [[P; PACK]; 3],
+    /// Force and torque; none where no body has them.
+    wrench: Option<[[[P; PACK]; 3]; 2]>,
+}
+
+impl<P: Precision> Forced<P> {
+    /// What acts on one of them.
+    fn input(&self, place: usize) -> Input {
+        let of = |columns: &[[P; PACK]; 3]| columns.map(|column| column[place].to_f64());
+        let gradient = self.gradient.as_ref();
+        let [force, torque] = self
+            .wrench
+            .as_ref()
+            .map_or_else(Default::default, |wrench| [of(&wrench[0]), of(&wrench[1])]);
+        Input {
+            flow: Flow {
+                velocity: of(&self.velocity),
+                gradient: gradient.map_or_else(Default::default, |[x, y, z]| [of(x), of(y), of(z)]),
+                acceleration: of(&self.acceleration),
+            },
+            wrench: Wrench { force, torque },
+            ..Input::default()
+        }
+    }
 }
 
 /// Bodies of a batch could not take a step.
@@ -243,6 +263,29 @@ impl InWind<'_> {
     pub(crate) fn time(&self, time: f64, body: u32) -> f64 {
         time + self.apart * f64::from(body)
     }
+
+    /// Adds what no lanes tell.
+    #[inline(always)]
+    fn with_tables<S: Simd>(
+        &self,
+        simd: S,
+        lanes: &Local<Doubles<S>>,
+        position: &[[f64; PACK]; 3],
+        time: &[f64; PACK],
+        first: usize,
+    ) -> Local<Doubles<S>> {
+        let count = <Doubles<S> as Lanes<S>>::COUNT;
+        let mut columns = [[0.0; PACK]; 15];
+        store_columns::<S, Doubles<S>, 15>(&mut columns, 0, &lanes.numbers());
+        for lane in 0..count {
+            let place = first + lane;
+            let mut local = Local::of_numbers(columns.map(|column| column[lane]));
+            let at = position.map(|column| column[place]);
+            self.wind.add_tables(&mut local, at, time[place]);
+            put(&mut columns, lane, &local.numbers());
+        }
+        Local::of_numbers(load_columns::<S, Doubles<S>, 15>(simd, &columns, 0))
+    }
 }
 
 impl<P: Precision> Pack<P> {
@@ -319,72 +362,71 @@ impl<P: Precision> Pack<P> {
         Input { noise, ..input }
     }
 
-    /// What its bodies meet, as `inputs` tells.
-    fn told(&self, inputs: &mut Inputs<'_>) -> [Input; PACK] {
+    /// What its bodies meet, as `inputs` tells; none where nothing acts.
+    fn told(&self, inputs: &mut Inputs<'_>) -> Option<Forced<P>> {
         let mut each = [Input::default(); PACK];
         for (place, input) in each.iter_mut().enumerate().take(self.taken) {
             *input = inputs(self.bodies[place], &self.state(place));
         }
-        each
+        if !each.iter().any(|input| Forcing::of(input).is_some()) {
+            return None;
+        }
+        let finite = |(place, input): (usize, &Input)| u64::from(input.is_finite()) << place;
+        let any = |of: fn(&Input) -> bool| each.iter().any(of);
+        let turns = any(|input| input.flow.gradient != [[0.0; 3]; 3]);
+        let pushes = any(|input| input.wrench != Wrench::default());
+        Some(Forced {
+            velocity: columns(&each, |input| input.flow.velocity),
+            gradient: turns
+                .then(|| std::array::from_fn(|i| columns(&each, |input| input.flow.gradient[i]))),
+            acceleration: columns(&each, |input| input.flow.acceleration),
+            wrench: pushes.then(|| {
+                [
+                    columns(&each, |input| input.wrench.force),
+                    columns(&each, |input| input.wrench.torque),
+                ]
+            }),
+            sound: each.iter().enumerate().map(finite).sum(),
+        })
     }
 
     /// The wind that its bodies meet, on top of a stream (m/s); in double precision whatever theirs.
     #[inline(always)]
-    fn blown<S: Simd>(&self, simd: S, in_wind: &InWind<'_>, stream: Vec3) -> [Input; PACK] {
+    fn blown<S: Simd>(&self, simd: S, in_wind: &InWind<'_>, stream: Vec3) -> Forced<P> {
         let position = self.position.map(|column| column.map(P::to_f64));
         let mut time = self.time;
         for (time, body) in time.iter_mut().zip(self.bodies) {
             *time = in_wind.time(*time, body);
         }
         let mut velocity = [[0.0; PACK]; 3];
+        let mut acceleration = [[0.0; PACK]; 3];
         let mut gradient = [[[0.0; PACK]; 3]; 3];
-        let mut rate = [[0.0; PACK]; 3];
+        let mut sound = 0;
         let count = <Doubles<S> as Lanes<S>>::COUNT;
+        let tables = in_wind.wind.has_tables();
         for first in (0..self.taken).step_by(count) {
             let at = load_columns::<S, Doubles<S>, 3>(simd, &position, first);
             let now = <Doubles<S> as Lanes<S>>::load(simd, &time[first..first + count]);
-            let local = in_wind.wind.closed_forms(&at, now);
+            let mut local = in_wind.wind.in_lanes(&at, now);
+            if tables {
+                local = in_wind.with_tables::<S>(simd, &local, &position, &time, first);
+            }
+            let gained = local.acceleration(stream);
+            sound |= <Doubles<S> as Lanes<S>>::bits(local.is_finite(&gained)) << first;
             store_columns::<S, Doubles<S>, 3>(&mut velocity, first, &local.velocity);
-            store_columns::<S, Doubles<S>, 3>(&mut rate, first, &local.rate);
+            store_columns::<S, Doubles<S>, 3>(&mut acceleration, first, &gained);
             for i in 0..3 {
                 store_columns::<S, Doubles<S>, 3>(&mut gradient[i], first, &local.gradient[i]);
             }
         }
-        let mut each = [Input::default(); PACK];
-        for (place, input) in each.iter_mut().enumerate().take(self.taken) {
-            let of = |columns: &[[f64; PACK]; 3]| columns.map(|column| column[place]);
-            let mut local = Local {
-                velocity: of(&velocity),
-                gradient: [of(&gradient[0]), of(&gradient[1]), of(&gradient[2])],
-                rate: of(&rate),
-            };
-            in_wind
-                .wind
-                .add_tables(&mut local, of(&position), time[place]);
-            input.flow = local.flow(stream);
+        let narrow = |columns: [[f64; PACK]; 3]| columns.map(|column| column.map(P::of));
+        Forced {
+            sound,
+            velocity: narrow(velocity),
+            gradient: (!in_wind.wind.is_uniform()).then(|| gradient.map(narrow)),
+            acceleration: narrow(acceleration),
+            wrench: None,
         }
-        each
-    }
-
-    /// `each` in columns; none where nothing acts.
-    fn forced(&self, each: [Input; PACK]) -> Option<Forced<P>> {
-        if !each.iter().any(|input| Forcing::of(input).is_some()) {
-            return None;
-        }
-        let finite = |(place, input): (usize, &Input)| u64::from(input.is_finite()) << place;
-        let turns = each
-            .iter()
-            .any(|input| input.flow.gradient != [[0.0; 3]; 3]);
-        Some(Forced {
-            velocity: columns(&each, |input| input.flow.velocity),
-            gradient: turns
-                .then(|| std::array::from_fn(|i| columns(&each, |input| input.flow.gradient[i]))),
-            acceleration: columns(&each, |input| input.flow.acceleration),
-            force: columns(&each, |input| input.wrench.force),
-            torque: columns(&each, |input| input.wrench.torque),
-            sound: each.iter().enumerate().map(finite).sum(),
-            inputs: each,
-        })
     }
 }
 
@@ -418,8 +460,8 @@ fn step_packs<S: Simd, L: Lanes<S>, F: Symmetry>(
     for pack in packs {
         let forced = match acting {
             Acting::Nothing => None,
-            Acting::Inputs(inputs) => pack.forced(pack.told(inputs)),
-            Acting::Wind(in_wind) => pack.forced(pack.blown(simd, in_wind, stream)),
+            Acting::Inputs(inputs) => pack.told(inputs),
+            Acting::Wind(in_wind) => Some(pack.blown(simd, in_wind, stream)),
         };
         for first in (0..pack.taken).step_by(L::COUNT) {
             let forced = forced.as_ref();
@@ -495,7 +537,7 @@ fn step_lanes<S: Simd, L: Lanes<S>, F: Symmetry>(
     let alone = L::bits(alone);
     for place in lanes.filter(|place| good & (1 << (place - first)) == 0) {
         let before = was.state(place);
-        let input = forced.map_or_else(Input::default, |forced| forced.inputs[place]);
+        let input = forced.map_or_else(Input::default, |forced| forced.input(place));
         let input = pack.with_its_noise(place, input);
         let mut state = before;
         let taken = match alone & told & (1 << (place - first)) {
@@ -517,6 +559,13 @@ fn load_forcing<S: Simd, L: Lanes<S>>(
     forced: &Forced<L::Scalar>,
     first: usize,
 ) -> Forcing<L> {
+    let [force, torque] = match &forced.wrench {
+        Some([force, torque]) => [
+            load_columns(simd, force, first),
+            load_columns(simd, torque, first),
+        ],
+        None => [[L::splat(simd, 0.0); 3]; 2],
+    };
     Forcing {
         velocity: load_columns(simd, &forced.velocity, first),
         gradient: match &forced.gradient {
@@ -528,8 +577,8 @@ fn load_forcing<S: Simd, L: Lanes<S>>(
             None => None,
         },
         acceleration: load_columns(simd, &forced.acceleration, first),
-        force: load_columns(simd, &forced.force, first),
-        torque: load_columns(simd, &forced.torque, first),
+        force,
+        torque,
     }
 }
 

@@ -15,7 +15,7 @@ pub use table::{Table, TableError};
 pub use vortex::Vortex;
 
 use crate::input::Flow;
-use crate::linalg::{Mat3, Vec3, add, add_scaled, dot, each, norm};
+use crate::linalg::{Mat3, Vec3, add, add_scaled, dot, lift, mat_vec, norm, scale, sub};
 use crate::real::Real;
 
 /// The velocity of the fluid wherever and whenever a body may be: the sum of any number of fields.
@@ -169,23 +169,58 @@ impl Wind {
     /// `stream` (m/s) is what the wind comes on top of, [`Fluid::velocity`](crate::Fluid::velocity): it is not in the
     /// velocity, but carries the wind along, which counts for its acceleration.
     pub fn flow(&self, position: Vec3, time: f64, stream: Vec3) -> Flow {
-        let mut local = self.closed_forms(&position, time);
+        let gusts = |gusts: &Gusts| gusts.alone(&position, time);
+        let mut local = self.closed_forms(&position, time, gusts);
         self.add_tables(&mut local, position, time);
-        local.flow(stream)
+        let acceleration = local.acceleration(stream);
+        Flow {
+            velocity: local.velocity,
+            gradient: local.gradient,
+            acceleration,
+        }
+    }
+
+    /// Whether it is the same everywhere and always.
+    pub(crate) fn is_uniform(&self) -> bool {
+        let uniform = |limited: &Limited| {
+            matches!(limited.field, WindField::Uniform(_)) && limited.region.is_none()
+        };
+        self.tables.is_empty() && self.fields.iter().all(uniform)
+    }
+
+    /// Where bodies in lanes are.
+    #[inline(always)]
+    pub(crate) fn in_lanes<R: Real>(&self, position: &Vec3<R>, time: R) -> Local<R> {
+        self.closed_forms(
+            position,
+            time,
+            #[inline(always)]
+            |gusts| gusts.over_bodies(position, time),
+        )
+    }
+
+    /// Whether it has more than [`Wind::in_lanes`] tells.
+    pub(crate) fn has_tables(&self) -> bool {
+        !self.tables.is_empty()
     }
 
     /// The sum of the fields in closed form, of one body or of those in lanes.
     #[inline(always)]
-    pub(crate) fn closed_forms<R: Real>(&self, position: &Vec3<R>, time: R) -> Local<R> {
+    fn closed_forms<R: Real>(
+        &self,
+        position: &Vec3<R>,
+        time: R,
+        gusts_at: impl Fn(&Gusts) -> Local<R>,
+    ) -> Local<R> {
         let mut sum = Local::none(time);
         for Limited { field, region } in &self.fields {
             let local = match field {
                 WindField::Uniform(velocity) => Local {
-                    velocity: velocity.map(|x| time.of(x)),
+                    velocity: lift(time, velocity),
                     ..Local::none(time)
                 },
                 WindField::Shear(shear) => shear.at(position),
-                WindField::Gusts(gusts) => gusts.at(position, time),
+                WindField::Gusts(gusts) => gusts_at(gusts),
                 WindField::Vortex(vortex) => vortex.at(position),
                 WindField::Jet(jet) => jet.at(position),
                 WindField::Table(_) => continue,
@@ -239,30 +274,52 @@ impl<R: Real> Local<R> {
         }
     }
 
+    /// Material acceleration, on top of a stream (m/s).
+    #[inline(always)]
+    pub(crate) fn acceleration(&self, stream: Vec3) -> Vec3<R> {
+        let like = self.rate[0];
+        let carried = add(self.velocity, lift(like, &stream));
+        add(self.rate, mat_vec(&self.gradient, carried))
+    }
+
+    /// Whether all of it is finite, and the acceleration that it makes.
+    #[inline(always)]
+    pub(crate) fn is_finite(&self, acceleration: &Vec3<R>) -> R::Mask {
+        let mut sum = acceleration[0].abs() + acceleration[1].abs() + acceleration[2].abs();
+        for x in self.numbers() {
+            sum = sum + x.abs();
+        }
+        sum.less(sum.of(f64::INFINITY))
+    }
+
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [R; 15] {
+        let ([u, v, w], [a, b, c]) = (self.velocity, self.rate);
+        let [[d, e, f], [g, h, i], [j, k, l]] = self.gradient;
+        [u, v, w, a, b, c, d, e, f, g, h, i, j, k, l]
+    }
+
+    #[inline(always)]
+    pub(crate) fn of_numbers([u, v, w, a, b, c, d, e, f, g, h, i, j, k, l]: [R; 15]) -> Self {
+        Self {
+            velocity: [u, v, w],
+            rate: [a, b, c],
+            gradient: [[d, e, f], [g, h, i], [j, k, l]],
+        }
+    }
+
     /// The same times the weight of a region.
     #[inline(always)]
     fn within(self, region: &Region, position: &Vec3<R>) -> Self {
         let (weight, slope) = region.weight(position);
-        let row = |i: usize| {
-            let own = self.gradient[i].map(|x| weight * x);
-            add_scaled(own, self.velocity[i], slope)
-        };
-        Self {
-            velocity: self.velocity.map(|x| weight * x),
-            gradient: [row(0), row(1), row(2)],
-            rate: self.rate.map(|x| weight * x),
+        let mut gradient = self.gradient;
+        for i in 0..3 {
+            gradient[i] = add_scaled(scale(weight, gradient[i]), self.velocity[i], slope);
         }
-    }
-}
-
-impl Local<f64> {
-    /// As a step takes it, on top of a stream.
-    pub(crate) fn flow(&self, stream: Vec3) -> Flow {
-        let carried = add(self.velocity, stream);
-        Flow {
-            velocity: self.velocity,
-            gradient: self.gradient,
-            acceleration: each(0.0, |i| self.rate[i] + dot(self.gradient[i], carried)),
+        Self {
+            velocity: scale(weight, self.velocity),
+            gradient,
+            rate: scale(weight, self.rate),
         }
     }
 }
@@ -309,8 +366,8 @@ fn decayed<R: Real>(z: R, exponential: R) -> (R, R) {
 #[inline(always)]
 fn about_line<R: Real>(position: &Vec3<R>, centre: Vec3, axis: Vec3) -> (R, Vec3<R>) {
     let like = position[0];
-    let away = each(like, |i| position[i] - like.of(centre[i]));
-    let axis = axis.map(|x| like.of(x));
+    let away = sub(*position, lift(like, &centre));
+    let axis = lift(like, &axis);
     let along = dot(away, axis);
     (along, add_scaled(away, -along, axis))
 }

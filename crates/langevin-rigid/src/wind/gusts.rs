@@ -2,9 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
+use fearless_simd::{Level, Simd, dispatch};
+
 use super::{Local, WindError, finite, positive};
 use crate::elementary::sin_cos_turns;
-use crate::linalg::{Mat3, Vec3, cross, dot, norm, quat_from_rotation_vector, rotation_matrix};
+use crate::lanes::{Doubles, Lanes};
+use crate::linalg::{
+    Mat3, Vec3, cross, dot, lift, norm, quat_from_rotation_vector, rotation_matrix,
+};
 use crate::noise::NoiseStream;
 use crate::real::Real;
 
@@ -54,25 +59,41 @@ impl Default for GustSettings {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gusts {
     settings: GustSettings,
-    modes: Vec<Mode>,
+    modes: Modes,
 }
 
 /// One Fourier mode: p cos(phase) + q sin(phase).
-#[derive(Debug, Clone, Copy, PartialEq)]
 struct Mode {
-    /// Turns of the phase over a metre and over a second.
-    turns: Vec3,
-    turns_per_second: f64,
-    /// Wave number (1/m) and angular frequency (1/s).
     wave: Vec3,
     frequency: f64,
     p: Vec3,
     q: Vec3,
 }
 
+/// All of them, number by number: their sums go over every [`STRIDE`]th mode, then over those, so that one body takes
+/// modes in lanes and many take bodies in lanes to the same bits.
+#[derive(Debug, Clone, PartialEq)]
+struct Modes {
+    /// Turns of the phase over a metre.
+    turns: [Column; 3],
+    /// And over a second.
+    turns_per_second: Column,
+    /// Wave number (1/m).
+    wave: [Column; 3],
+    /// Angular frequency (1/s).
+    frequency: Column,
+    p: [Column; 3],
+    q: [Column; 3],
+}
+
+type Column = [f64; MODES];
+
 /// Shells of wave numbers, and directions in each.
-const SHELLS: usize = 12;
+const SHELLS: usize = 8;
 const DIRECTIONS: usize = 4;
+const MODES: usize = SHELLS * DIRECTIONS;
+/// A multiple of the lanes of every processor.
+const STRIDE: usize = 8;
 /// The largest eddies, as a wave number times that of the spectrum's bend.
 const LARGEST: f64 = 0.15;
 /// Wave number of the bend times the integral length: Gamma(1/3) / (pi^(1/2) Gamma(5/6)).
@@ -115,7 +136,7 @@ impl Gusts {
         let [low, high] = [LARGEST, TAU * bend / smallest];
         let edge = |shell: usize| low * libm::pow(high / low, shell as f64 / SHELLS as f64);
         let spectrum = Spectrum::new(rms);
-        let mut modes = Vec::with_capacity(SHELLS * DIRECTIONS);
+        let mut modes = Vec::with_capacity(MODES);
         for shell in 0..SHELLS {
             let [from, to] = [edge(shell), edge(shell + 1)];
             let end = if shell + 1 == SHELLS {
@@ -145,7 +166,7 @@ impl Gusts {
         }
         Ok(Self {
             settings: *settings,
-            modes,
+            modes: Modes::new(&modes),
         })
     }
 
@@ -154,26 +175,102 @@ impl Gusts {
         &self.settings
     }
 
+    /// At one place.
+    pub(super) fn alone(&self, position: &Vec3, time: f64) -> Local<f64> {
+        dispatch!(Level::new(), simd => self.over_modes::<_, Doubles<_>>(simd, position, time))
+    }
+
+    /// At one place, with modes in lanes.
     #[inline(always)]
-    pub(super) fn at<R: Real>(&self, position: &Vec3<R>, time: R) -> Local<R> {
-        let [x, y, z] = *position;
-        let mut local = Local::none(x);
-        for mode in &self.modes {
-            let [a, b, c] = mode.turns.map(|k| x.of(k));
-            let phase = a * x + b * y + c * z + time * x.of(mode.turns_per_second);
-            let (sin, cos) = sin_cos_turns(phase);
-            let frequency = x.of(mode.frequency);
-            for i in 0..3 {
-                let (p, q) = (x.of(mode.p[i]), x.of(mode.q[i]));
-                local.velocity[i] = local.velocity[i] + p * cos + q * sin;
-                let slope = q * cos - p * sin;
-                local.rate[i] = local.rate[i] + slope * frequency;
-                for j in 0..3 {
-                    local.gradient[i][j] = local.gradient[i][j] + slope * x.of(mode.wave[j]);
-                }
+    fn over_modes<S: Simd, L: Lanes<S, Scalar = f64>>(
+        &self,
+        simd: S,
+        position: &Vec3,
+        time: f64,
+    ) -> Local<f64> {
+        let time = L::splat(simd, time);
+        let position = lift(time, position);
+        let mut sums = [[0.0; STRIDE]; 15];
+        for first in (0..STRIDE).step_by(L::COUNT) {
+            let mut sum = Local::none(time);
+            for start in (first..MODES).step_by(STRIDE) {
+                self.modes.add(
+                    &mut sum,
+                    &position,
+                    time,
+                    #[inline(always)]
+                    |column| L::load(simd, &column[start..start + L::COUNT]),
+                );
+            }
+            for (value, sums) in sum.numbers().into_iter().zip(&mut sums) {
+                value.store(&mut sums[first..first + L::COUNT]);
             }
         }
-        local
+        Local::of_numbers(sums.map(|sums| sums.into_iter().fold(0.0, |sum, x| sum + x)))
+    }
+
+    /// At the places of bodies in lanes.
+    #[inline(always)]
+    pub(super) fn over_bodies<R: Real>(&self, position: &Vec3<R>, time: R) -> Local<R> {
+        let mut total = Local::none(time);
+        for first in 0..STRIDE {
+            let mut sum = Local::none(time);
+            for mode in (first..MODES).step_by(STRIDE) {
+                self.modes.add(
+                    &mut sum,
+                    position,
+                    time,
+                    #[inline(always)]
+                    |column| time.of(column[mode]),
+                );
+            }
+            total.add(&sum);
+        }
+        total
+    }
+}
+
+impl Modes {
+    fn new(modes: &[Mode]) -> Self {
+        let column = |of: &dyn Fn(&Mode) -> f64| -> Column {
+            std::array::from_fn(|n| modes.get(n).map_or(0.0, of))
+        };
+        let columns =
+            |of: fn(&Mode) -> Vec3| std::array::from_fn(|i| column(&|mode: &Mode| of(mode)[i]));
+        Self {
+            turns: columns(|mode| mode.wave.map(|k| k / TAU)),
+            turns_per_second: column(&|mode| mode.frequency / TAU),
+            wave: columns(|mode| mode.wave),
+            frequency: column(&|mode| mode.frequency),
+            p: columns(|mode| mode.p),
+            q: columns(|mode| mode.q),
+        }
+    }
+
+    /// Adds the modes that `of` takes out of the columns.
+    #[inline(always)]
+    fn add<R: Real>(
+        &self,
+        sum: &mut Local<R>,
+        position: &Vec3<R>,
+        time: R,
+        of: impl Fn(&Column) -> R,
+    ) {
+        let [x, y, z] = *position;
+        let [a, b, c] = &self.turns;
+        let phase = of(a) * x + of(b) * y + of(c) * z + of(&self.turns_per_second) * time;
+        let (sin, cos) = sin_cos_turns(phase);
+        let frequency = of(&self.frequency);
+        let wave = [of(&self.wave[0]), of(&self.wave[1]), of(&self.wave[2])];
+        for i in 0..3 {
+            let (p, q) = (of(&self.p[i]), of(&self.q[i]));
+            sum.velocity[i] = sum.velocity[i] + (p * cos + q * sin);
+            let slope = q * cos - p * sin;
+            sum.rate[i] = sum.rate[i] + slope * frequency;
+            for j in 0..3 {
+                sum.gradient[i][j] = sum.gradient[i][j] + slope * wave[j];
+            }
+        }
     }
 }
 
@@ -208,8 +305,6 @@ impl Mode {
         let second = cross(towards, first);
         let [a, b] = [dice.angle(), dice.angle()];
         Self {
-            turns: wave.map(|k| k / TAU),
-            turns_per_second: frequency / TAU,
             wave,
             frequency,
             p: std::array::from_fn(|i| {

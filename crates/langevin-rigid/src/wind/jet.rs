@@ -2,7 +2,7 @@
 
 use super::{Local, WindError, about_line, decayed, finite, positive, unit};
 use crate::elementary::exp;
-use crate::linalg::{Vec3, dot};
+use crate::linalg::{Vec3, dot, lift};
 use crate::real::Real;
 
 /// The mean flow of a round jet, as from a fan: it spreads as turbulent jets do and draws in the air around it.
@@ -43,7 +43,7 @@ impl Jet {
     pub(super) fn at<R: Real>(&self, position: &Vec3<R>) -> Local<R> {
         let like = position[0];
         let (s, away) = about_line(position, self.centre, self.axis);
-        let axis = self.axis.map(|x| like.of(x));
+        let axis = lift(like, &self.axis);
         let r2 = dot(away, away);
         let (zero, two) = (like.of(0.0), like.of(2.0));
         let upstream = s.less(zero);

@@ -1,7 +1,7 @@
 //! Where a field is.
 
 use super::{WindError, finite, positive};
-use crate::linalg::{Vec3, dot, each};
+use crate::linalg::{Vec3, dot, lift, scale, sub};
 use crate::real::Real;
 
 /// A part of space with a soft edge: outside it a field is zero, inside whole, and in the edge it goes from one to the
@@ -60,12 +60,10 @@ impl Region {
         let like = position[0];
         match self {
             Self::Box { centre, size, edge } => {
-                let along = |i: usize| {
-                    let away = position[i] - like.of(centre[i]);
-                    let (weight, slope) = step(like.of(0.5 * size[i]) - away.abs(), *edge);
-                    (weight, R::choose(away.less(like.of(0.0)), slope, -slope))
-                };
-                let [(x, dx), (y, dy), (z, dz)] = [along(0), along(1), along(2)];
+                let away = sub(*position, lift(like, centre));
+                let (x, dx) = across(away[0], size[0], *edge);
+                let (y, dy) = across(away[1], size[1], *edge);
+                let (z, dz) = across(away[2], size[2], *edge);
                 (x * y * z, [dx * y * z, x * dy * z, x * y * dz])
             }
             Self::Sphere {
@@ -73,14 +71,21 @@ impl Region {
                 radius,
                 edge,
             } => {
-                let away = each(like, |i| position[i] - like.of(centre[i]));
+                let away = sub(*position, lift(like, centre));
                 let r = dot(away, away).sqrt();
                 let (weight, slope) = step(like.of(*radius) - r, *edge);
                 let inwards = -slope / r.max(like.of(1e-300));
-                (weight, away.map(|x| inwards * x))
+                (weight, scale(inwards, away))
             }
         }
     }
+}
+
+/// The weight of a slab of thickness `size`, and its derivative, so far from its middle.
+#[inline(always)]
+fn across<R: Real>(away: R, size: f64, edge: f64) -> (R, R) {
+    let (weight, slope) = step(away.of(0.5 * size) - away.abs(), edge);
+    (weight, R::choose(away.less(away.of(0.0)), slope, -slope))
 }
 
 /// From 0 outside to 1 at the depth `edge`, and its derivative.

@@ -61,10 +61,9 @@ impl Shear {
         let (share, slope) = match self.profile {
             Profile::Power { exponent } => {
                 let share = height * height.of(1.0 / self.height);
-                let power = |x: R| exp(ln(x) * x.of(exponent));
                 let low = share.of(LINEAR);
                 let near = share.less(low);
-                let value = power(share.max(low));
+                let value = exp(ln(share.max(low)) * share.of(exponent));
                 let rise = R::choose(
                     near,
                     value / low,

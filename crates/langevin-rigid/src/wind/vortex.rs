@@ -2,7 +2,7 @@
 
 use super::{Local, WindError, about_line, decayed, finite, positive, unit};
 use crate::elementary::exp;
-use crate::linalg::{Vec3, cross};
+use crate::linalg::{Vec3, cross, dot, lift};
 use crate::real::Real;
 
 /// A straight line about which the fluid turns, with a viscous core: the vortex of Lamb (1932) and Oseen (1911),
@@ -38,9 +38,9 @@ impl Vortex {
     pub(super) fn at<R: Real>(&self, position: &Vec3<R>) -> Local<R> {
         let like = position[0];
         let (_, away) = about_line(position, self.centre, self.axis);
-        let axis = self.axis.map(|x| like.of(x));
+        let axis = lift(like, &self.axis);
         let inverse = like.of(1.0 / (self.core * self.core));
-        let z = (away[0] * away[0] + away[1] * away[1] + away[2] * away[2]) * inverse;
+        let z = dot(away, away) * inverse;
         let (value, slope) = decayed(z, exp(-z));
         let strength = inverse * like.of(self.circulation / std::f64::consts::TAU);
         let around = cross(axis, away);
