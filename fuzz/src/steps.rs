@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use langevin_rigid::linalg::{eigen_symmetric, quat_from_rotation_vector};
+use langevin_rigid::wind::Wind;
 use langevin_rigid::{
     Bake, Batch, Body, Fluid, Model, NoiseStream, SPEED_LIMIT, State, StepError, Stepper,
     TurbulenceHistory, TurbulenceSource,
@@ -53,7 +54,7 @@ pub(crate) fn fall(bytes: &[u8], models: &[Model]) {
     };
     let mut state = release.state;
     for _ in 0..if absurd { FAST_STEPS } else { STEPS } {
-        match advance(&scene, &stepper, &release, &mut state) {
+        match advance(&scene, &stepper, &Wind::default(), &release, &mut state) {
             Ok(()) => assert!(state.is_finite(), "{state:?}"),
             Err(error) => {
                 assert!(

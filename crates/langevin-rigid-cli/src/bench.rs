@@ -225,13 +225,13 @@ fn step(name: &'static str, model: Model, bars: &Bars) -> Result<f64> {
     let mut scene = scene::find(name)?;
     scene.set_model(model);
     let prepared = cache::prepare(scene, bars)?;
-    let (scene, stepper) = (prepared.scene(), prepared.stepper());
+    let (scene, stepper, wind) = (prepared.scene(), prepared.stepper(), prepared.wind());
     let seconds = median(REPEATS, name, bars, |repeat| {
         let mut release = prepared.release(0);
         release.noise.seed = repeat as u64;
         let mut state = release.state;
         for _ in 0..STEPS {
-            advance(scene, stepper, &release, &mut state)?;
+            advance(scene, stepper, wind, &release, &mut state)?;
         }
         Ok(())
     })?;

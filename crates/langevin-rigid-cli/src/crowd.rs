@@ -4,10 +4,11 @@ use std::io::Write;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
-use langevin_rigid::{Batch, BatchError, Stepper};
+use langevin_rigid::{Batch, BatchError};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::budget::Need;
-use langevin_rigid_scenes::scene::{self, Scene};
+use langevin_rigid_scenes::prepared::Prepared;
+use langevin_rigid_scenes::scene;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -42,13 +43,13 @@ pub(crate) fn crowd(options: &Crowd, bars: &Bars) -> Result<()> {
         scene.set_model(model);
     }
     let prepared = cache::prepare(scene, bars)?;
-    let (scene, stepper) = (prepared.scene(), prepared.stepper());
+    let scene = prepared.scene();
     forecast(options, scene.time_step)?;
     let mut batch = Batch::<f64>::new(scene.seed);
     for _ in 0..options.bodies {
         batch.push(&scene.release);
     }
-    let mut spent = bars.stoppable(|| frames(options, scene, stepper, &mut batch, bars))?;
+    let mut spent = bars.stoppable(|| frames(options, &prepared, &mut batch, bars))?;
     bars.clear();
     if spent.is_empty() {
         bail!("interrupted before the first frame");
@@ -83,12 +84,12 @@ fn forecast(options: &Crowd, time_step: f64) -> Result<()> {
 /// How long the steps of each frame took, until the end or a signal.
 fn frames(
     options: &Crowd,
-    scene: &Scene,
-    stepper: &Stepper,
+    prepared: &Prepared,
     batch: &mut Batch,
     bars: &Bars,
 ) -> Result<Vec<Duration>> {
     let frames = (options.seconds * FRAMES_PER_SECOND).ceil() as usize;
+    let time_step = prepared.scene().time_step;
     let mut spent = Vec::with_capacity(frames);
     let mut steps = 0u64;
     let mut due = Instant::now();
@@ -97,8 +98,8 @@ fn frames(
             break;
         }
         let started = Instant::now();
-        let wanted = (number as f64 / FRAMES_PER_SECOND / scene.time_step).round() as u64;
-        step(stepper, batch, scene.time_step, wanted - steps)?;
+        let wanted = (number as f64 / FRAMES_PER_SECOND / time_step).round() as u64;
+        step(prepared, batch, wanted - steps)?;
         steps = wanted;
         spent.push(started.elapsed());
         bars.report("crowd", number as f64 / frames as f64);
@@ -111,15 +112,17 @@ fn frames(
 
 /// Steps of all bodies, shared among the threads: each takes its share through all of them, as bodies
 /// do not meet.
-fn step(stepper: &Stepper, batch: &mut Batch, dt: f64, steps: u64) -> Result<(), BatchError> {
+fn step(prepared: &Prepared, batch: &mut Batch, steps: u64) -> Result<(), BatchError> {
+    let (stepper, wind) = (prepared.stepper(), prepared.wind());
+    let dt = prepared.scene().time_step;
     let packs = batch.packs_mut();
     let share = packs
         .len()
         .div_ceil(4 * rayon::current_num_threads())
         .max(1);
-    packs
-        .par_chunks_mut(share)
-        .try_for_each(|share| (0..steps).try_for_each(|_| stepper.step_packs(share, dt)))
+    packs.par_chunks_mut(share).try_for_each(|share| {
+        (0..steps).try_for_each(|_| stepper.step_packs_in(share, dt, wind, 0.0))
+    })
 }
 
 fn tell(report: &Report, json: bool) -> Result<()> {

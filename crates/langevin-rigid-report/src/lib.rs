@@ -54,6 +54,7 @@ mod validation;
 
 use std::path::{Path, PathBuf};
 
+use langevin_rigid::wind::WindError;
 use langevin_rigid::{SetupError, UnknownName, choose};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::turbulence::TurbulenceError;
@@ -171,6 +172,9 @@ pub enum ReportError {
     /// A body could not be made ready to step.
     #[error(transparent)]
     Setup(#[from] SetupError),
+    /// A wind is none.
+    #[error(transparent)]
+    Wind(#[from] WindError),
     /// The turbulence could not be computed.
     #[error(transparent)]
     Turbulence(#[from] TurbulenceError),
@@ -193,6 +197,7 @@ impl From<PrepareError> for ReportError {
         match error {
             PrepareError::Bake(error) => Self::Bake(error),
             PrepareError::Setup(error) => Self::Setup(error),
+            PrepareError::Wind(error) => Self::Wind(error),
         }
     }
 }

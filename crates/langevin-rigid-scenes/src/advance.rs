@@ -1,6 +1,7 @@
 //! One step of a scene: the stepper's, and what else the body meets there.
 
-use langevin_rigid::{State, StepError, Stepper};
+use langevin_rigid::wind::Wind;
+use langevin_rigid::{Input, State, StepError, Stepper};
 
 use crate::prepared::Release;
 use crate::scene::Scene;
@@ -8,25 +9,42 @@ use crate::scene::Scene;
 /// Advances `state` by the scene's time step.
 ///
 /// While it is [carried](Scene::carried) the body moves with its release velocity and does not turn.
-/// The walls of a [tank](langevin_rigid::Tank), around the release, hold the centre of mass.
+/// The wind is as it is where and when the step begins. The walls of a [tank](langevin_rigid::Tank), around the release, hold the centre of mass.
 ///
 /// # Errors
 /// Those of [`Stepper::step`], with `state` as it was.
 pub fn advance(
     scene: &Scene,
     stepper: &Stepper,
+    wind: &Wind,
     release: &Release,
     state: &mut State,
 ) -> Result<(), StepError> {
     if is_carried(scene, state) {
         state.carry(scene.time_step);
     } else {
-        stepper.step(state, scene.time_step, &release.noise.into())?;
+        let input = blown(scene, wind, release, state, 0.0);
+        stepper.step(state, scene.time_step, &input)?;
     }
     if let Some(tank) = &scene.tank {
         tank.hold(release.state.position, state);
     }
     Ok(())
+}
+
+/// What a body meets, so much later (s) than by its own time.
+pub(crate) fn blown(
+    scene: &Scene,
+    wind: &Wind,
+    release: &Release,
+    state: &State,
+    later: f64,
+) -> Input {
+    let mut input = Input::with_noise(release.noise);
+    if !wind.is_empty() {
+        input.flow = wind.flow(state.position, state.time + later, scene.fluid.velocity);
+    }
+    input
 }
 
 /// Whether the body is not let go yet.
@@ -59,14 +77,14 @@ mod tests {
         };
         let mut state = release.state;
         for _ in 0..50 {
-            advance(&scene, &stepper, &release, &mut state).unwrap();
+            advance(&scene, &stepper, &Wind::default(), &release, &mut state).unwrap();
         }
         assert_eq!(state.orientation, scene.release.orientation);
         assert_eq!(state.velocity, scene.release.velocity);
         for (x, wanted) in state.position.into_iter().zip([0.005, -0.015, 0.0]) {
             assert!((x - wanted).abs() < 1e-12, "{x} for {wanted}");
         }
-        advance(&scene, &stepper, &release, &mut state).unwrap();
+        advance(&scene, &stepper, &Wind::default(), &release, &mut state).unwrap();
         assert_ne!(state.velocity, scene.release.velocity);
     }
 }

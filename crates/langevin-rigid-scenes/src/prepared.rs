@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use langevin_rigid::wind::{Wind, WindError};
 use langevin_rigid::{Body, Ending, Hull, NoiseStream, SetupError, State, StepError, Stepper, run};
 use langevin_rigid_bake::progress::{Progress, Silent};
 use rayon::prelude::*;
@@ -34,6 +35,7 @@ pub struct Prepared {
     scene: Scene,
     baked: Arc<Baked>,
     stepper: Stepper,
+    wind: Wind,
     hull: Hull,
 }
 
@@ -46,6 +48,9 @@ pub enum PrepareError {
     /// Body, fluid and settings do not go together.
     #[error(transparent)]
     Setup(#[from] SetupError),
+    /// Its wind is none.
+    #[error(transparent)]
+    Wind(#[from] WindError),
 }
 
 /// Why a run would be none.
@@ -152,16 +157,17 @@ impl Prepared {
         progress: &dyn Progress,
     ) -> Result<Self, PrepareError> {
         let baked = bake_scene(&scene, cache, progress)?;
-        Ok(Self::of(scene, Arc::new(baked))?)
+        Self::of(scene, Arc::new(baked))
     }
 
     /// From a bake that is there: the scene's own, or that of a scene of the same body whose turbulence serves both.
     ///
     /// # Errors
-    /// [`SetupError`].
-    pub fn of(scene: Scene, baked: Arc<Baked>) -> Result<Self, SetupError> {
+    /// [`PrepareError`].
+    pub fn of(scene: Scene, baked: Arc<Baked>) -> Result<Self, PrepareError> {
         Ok(Self {
             stepper: stepper(&scene, &baked.bake)?,
+            wind: scene.make_wind()?,
             hull: Hull::new(&baked.bake.body.surface.vertices),
             scene,
             baked,
@@ -186,6 +192,11 @@ impl Prepared {
     /// Its stepper.
     pub fn stepper(&self) -> &Stepper {
         &self.stepper
+    }
+
+    /// Its wind.
+    pub fn wind(&self) -> &Wind {
+        &self.wind
     }
 
     /// What touches the ground.
@@ -235,7 +246,7 @@ impl Prepared {
     ) -> Result<Ending, StepError> {
         let mut state = release.state;
         run(
-            |state| advance(&self.scene, &self.stepper, release, state),
+            |state| advance(&self.scene, &self.stepper, &self.wind, release, state),
             &mut state,
             self.scene.time_step,
             &self.hull,

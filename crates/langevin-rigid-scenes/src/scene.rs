@@ -19,10 +19,12 @@ mod shape;
 mod surroundings;
 #[cfg(test)]
 mod tests;
+mod wind;
 
 use std::path::PathBuf;
 
-use langevin_rigid::linalg::vector::{norm, sub};
+use langevin_rigid::linalg::vector::{add, norm, sub};
+use langevin_rigid::wind::{Wind, WindError};
 use langevin_rigid::{Fluid, Model, Settings, State, StopAt, Tank};
 use langevin_rigid_bake::body::BodySpec;
 use langevin_rigid_bake::shapes::Shape;
@@ -38,6 +40,7 @@ use raw::{RawFluid, RawPicture, RawRun, RawScatter, RawScene, RawTank, given};
 pub use registry::{BUILT_IN, BuiltIn, FindError, find};
 pub use run::StepsError;
 use seed::Seed;
+pub use wind::{SceneField, WindPart};
 
 /// A scene, checked and complete.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,6 +74,8 @@ pub struct Scene {
     pub scatter: Scatter,
     /// Walls and floor around the release point, if any.
     pub tank: Option<Tank>,
+    /// The fields that make the wind, on top of the velocity of the fluid.
+    pub wind: Vec<WindPart>,
 }
 
 /// Standard deviations of the normal scatter of an ensemble's releases, one draw per run.
@@ -172,16 +177,18 @@ impl Scene {
         let fluid = surroundings::fluid(&doc, &raw.fluid)?;
         let stop = run::stop(&doc, &raw.run, tank.map(|t| t.floor(release.position)))?;
         run::check_height(&doc, run, &stop, release.position[1])?;
+        let seed = run.seed.as_ref().map_or(0, |seed| seed.get_ref().0);
+        let parts = wind::resolve(&doc, &raw.wind, stop.ground, fluid.velocity)?;
         Ok(Self {
             name: name.to_owned(),
             description: raw.description.clone().unwrap_or_default(),
             settings: Settings {
                 separated: separated::resolve(&doc, &raw.separated)?,
-                release_speed: relative_speed(&release, &fluid),
+                release_speed: relative_speed(&release, &fluid, &parts, seed),
                 ..run::settings(&doc, run, &raw.turbulence)?
             },
             time_step: run::time_step(&doc, &raw.run, &stop)?,
-            seed: run.seed.as_ref().map_or(0, |seed| seed.get_ref().0),
+            seed,
             grid: grid::resolve(&doc, &raw.turbulence)?,
             picture_interval: doc.given(&raw.picture.interval, "interval", TIME_STEP)?,
             scatter: release::scatter(&doc, &raw.scatter)?,
@@ -192,7 +199,16 @@ impl Scene {
             release,
             stop,
             tank,
+            wind: parts,
         })
+    }
+
+    /// The wind of its run.
+    ///
+    /// # Errors
+    /// [`WindError`]; none for a scene that was read.
+    pub fn make_wind(&self) -> Result<Wind, WindError> {
+        wind::wind(&self.wind, self.seed)
     }
 
     /// Puts the scene under another model, with the integrator that it is meant for.
@@ -205,7 +221,7 @@ impl Scene {
 
     /// Speed of the release relative to the fluid (m/s).
     pub fn release_speed(&self) -> f64 {
-        relative_speed(&self.release, &self.fluid)
+        relative_speed(&self.release, &self.fluid, &self.wind, self.seed)
     }
 
     /// What is said of its runs in files for other programs.
@@ -269,11 +285,15 @@ impl Scene {
             tank: self.tank.map(|tank| RawTank {
                 size: Spanned::new(0..0, tank.size.to_vec()),
             }),
+            wind: self.wind.iter().map(wind::write).collect(),
         })
     }
 }
 
 /// Of the body and the fluid at the release (m/s).
-fn relative_speed(release: &State, fluid: &Fluid) -> f64 {
-    norm(sub(release.world_velocity(), fluid.velocity))
+fn relative_speed(release: &State, fluid: &Fluid, parts: &[WindPart], seed: u64) -> f64 {
+    // A wind that cannot be made is told elsewhere.
+    let wind = wind::wind(parts, seed).unwrap_or_default();
+    let gust = wind.flow(release.position, 0.0, fluid.velocity).velocity;
+    norm(sub(release.world_velocity(), add(fluid.velocity, gust)))
 }

@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid::linalg::{eigen_symmetric, rotate};
+use langevin_rigid::wind::Wind;
 use langevin_rigid::{Bake, NoiseStream, State};
 use langevin_rigid_scenes::scene::{Scene, find};
 use langevin_rigid_scenes::{advance::advance, baking, prepared::Release};
@@ -26,7 +27,7 @@ fn fall(scene: &Scene, bake: &Bake, seed: u64, seconds: f64) -> Vec<State> {
     let mut states = vec![release.state];
     let mut state = release.state;
     while state.time < seconds {
-        advance(scene, &stepper, &release, &mut state).unwrap();
+        advance(scene, &stepper, &Wind::default(), &release, &mut state).unwrap();
         states.push(state);
     }
     states

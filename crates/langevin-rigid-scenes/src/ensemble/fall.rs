@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::motion_class::MotionTracker;
 use super::scatter::scattered_release;
-use crate::advance::{advance, is_carried};
+use crate::advance::{advance, blown, is_carried};
 use crate::prepared::{Prepared, Release};
 use crate::scene::MAX_STEPS;
 
@@ -15,6 +15,9 @@ pub const SAMPLES_PER_SECOND: u32 = 60;
 
 /// Steps of a batch between two looks at whether to go on.
 const PATIENCE: u32 = 16;
+
+/// Time between two runs in the wind of the scene (s): each meets other gusts.
+const APART: f64 = 3600.0;
 
 /// Why a fall ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -127,7 +130,10 @@ impl Setup<'_> {
         end: &mut impl FnMut(Fall),
     ) {
         let (scene, stepper) = (self.prepared.scene(), self.prepared.stepper());
-        let stopped = stepper.step_batch(batch, scene.time_step).err();
+        let wind = self.prepared.wind();
+        let stopped = stepper
+            .step_batch_in(batch, scene.time_step, wind, APART)
+            .err();
         let stopped = stopped.map_or_else(Vec::new, |error| error.bodies);
         // Backwards, as the last takes the place of one that leaves.
         for place in (0..falling.len()).rev() {
@@ -138,7 +144,8 @@ impl Setup<'_> {
             let mut ending = None;
             if stopped.contains(&fall.release.noise.body) {
                 let mut again = state;
-                let input = fall.release.noise.into();
+                let later = APART * f64::from(fall.release.noise.body);
+                let input = blown(scene, wind, &fall.release, &state, later);
                 let error = stepper.step(&mut again, scene.time_step, &input).err();
                 let words = error.map_or_else(String::new, |error| error.to_string());
                 ending = Some(FallEnding::Diverged(words));
@@ -180,7 +187,13 @@ impl Setup<'_> {
                 return Start::Free(Box::new(fall), state);
             }
             let before = state;
-            if let Err(error) = advance(scene, self.prepared.stepper(), &release, &mut state) {
+            if let Err(error) = advance(
+                scene,
+                self.prepared.stepper(),
+                self.prepared.wind(),
+                &release,
+                &mut state,
+            ) {
                 let ending = FallEnding::Diverged(error.to_string());
                 return Start::Over(self.ended(fall, &state, ending));
             }

@@ -87,3 +87,8 @@ pub(super) const POSITIVE: Kind = Kind::new("", 1e-6, 1e6);
 pub(super) const ANGLE_SCATTER: Kind = Kind::new("standard deviation, degrees", 0.0, 1e6);
 pub(super) const SPIN_SCATTER: Kind = Kind::new("standard deviation, rad/s", 0.0, 1e6);
 pub(super) const SPEED_SCATTER: Kind = Kind::new("standard deviation, m/s", 0.0, 1e6);
+/// Of a fluctuating velocity.
+pub(super) const DEVIATION: Kind = Kind::new("m/s", 0.0, 1e6);
+/// Of a power law over the height.
+pub(super) const EXPONENT: Kind = Kind::new("", 0.01, 1.0);
+pub(super) const CIRCULATION: Kind = Kind::either_way("m^2/s", 1e9);

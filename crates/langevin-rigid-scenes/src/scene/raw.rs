@@ -33,6 +33,9 @@ pub(super) struct RawScene {
     pub(super) tank: Option<RawTank>,
     #[serde(default)]
     pub(super) separated: RawSeparated,
+    // Lists of tables last, as TOML has them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) wind: Vec<Spanned<RawWind>>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -141,6 +144,38 @@ pub(super) struct RawScatter {
     pub(super) tilt: Given<f64>,
     pub(super) spin: Given<f64>,
     pub(super) velocity: Given<f64>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawWind {
+    pub(super) field: Given<String>,
+    pub(super) velocity: Given<Vec<f64>>,
+    pub(super) height: Given<f64>,
+    pub(super) ground: Given<f64>,
+    pub(super) exponent: Given<f64>,
+    pub(super) roughness: Given<f64>,
+    pub(super) rms: Given<f64>,
+    pub(super) length: Given<f64>,
+    pub(super) smallest: Given<f64>,
+    pub(super) carried: Given<Vec<f64>>,
+    pub(super) seed: Given<Seed>,
+    pub(super) centre: Given<Vec<f64>>,
+    pub(super) axis: Given<Vec<f64>>,
+    pub(super) circulation: Given<f64>,
+    pub(super) core: Given<f64>,
+    pub(super) speed: Given<f64>,
+    pub(super) diameter: Given<f64>,
+    pub(super) within: Option<Spanned<RawWithin>>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawWithin {
+    pub(super) centre: Given<Vec<f64>>,
+    pub(super) size: Given<Vec<f64>>,
+    pub(super) radius: Given<f64>,
+    pub(super) edge: Given<f64>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]

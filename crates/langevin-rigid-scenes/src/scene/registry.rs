@@ -38,6 +38,8 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
     "coin",
     "bubble",
     "business-card",
+    "autumn",
+    "fan",
     "sheet-a6",
     "table2-ellipsoid-320-1ms",
     "table2-ellipsoid-320-5ms",
