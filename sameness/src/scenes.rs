@@ -11,13 +11,14 @@ use crate::Line;
 use crate::fnv::Fnv;
 
 /// Thick and thin, flat and bent, in air and in water; under the models separated and consistent.
-const NAMES: [&str; 6] = [
+const NAMES: [&str; 7] = [
     "coin",
     "ellipsoid-water",
     "paper-30",
     "maple-seed",
     "feather",
     "airplane",
+    "autumn",
 ];
 /// Coarse, for bakes in a second without the optimizer.
 const TRIANGLES: usize = 200;
