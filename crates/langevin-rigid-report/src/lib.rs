@@ -54,7 +54,6 @@ mod validation;
 
 use std::path::{Path, PathBuf};
 
-use langevin_rigid::wind::WindError;
 use langevin_rigid::{SetupError, UnknownName, choose};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::turbulence::TurbulenceError;
@@ -62,7 +61,7 @@ use langevin_rigid_formats::files::{self, WriteError};
 use langevin_rigid_pictures::PictureError;
 use langevin_rigid_scenes::baking::SceneBakeError;
 use langevin_rigid_scenes::prepared::PrepareError;
-use langevin_rigid_scenes::scene::FindError;
+use langevin_rigid_scenes::scene::{FindError, SceneWindError};
 
 pub use numbers::Numbers;
 pub use section::{Claim, Section};
@@ -174,7 +173,7 @@ pub enum ReportError {
     Setup(#[from] SetupError),
     /// A wind is none.
     #[error(transparent)]
-    Wind(#[from] WindError),
+    Wind(#[from] SceneWindError),
     /// The turbulence could not be computed.
     #[error(transparent)]
     Turbulence(#[from] TurbulenceError),

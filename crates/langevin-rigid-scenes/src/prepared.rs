@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use langevin_rigid::wind::{Wind, WindError};
+use langevin_rigid::wind::Wind;
 use langevin_rigid::{Body, Ending, Hull, NoiseStream, SetupError, State, StepError, Stepper, run};
 use langevin_rigid_bake::progress::{Progress, Silent};
 use rayon::prelude::*;
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use crate::advance::advance;
 use crate::baking::{Baked, SceneBakeError, bake_scene, stepper};
 use crate::ensemble::side_by_side;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneWindError};
 
 /// A scene with its bake, its stepper and the hull that touches the ground: all that a run needs.
 ///
@@ -50,7 +50,7 @@ pub enum PrepareError {
     Setup(#[from] SetupError),
     /// Its wind is none.
     #[error(transparent)]
-    Wind(#[from] WindError),
+    Wind(#[from] SceneWindError),
 }
 
 /// Why a run would be none.

@@ -24,7 +24,7 @@ mod wind;
 use std::path::PathBuf;
 
 use langevin_rigid::linalg::vector::{add, norm, sub};
-use langevin_rigid::wind::{Wind, WindError};
+use langevin_rigid::wind::Wind;
 use langevin_rigid::{Fluid, Model, Settings, State, StopAt, Tank};
 use langevin_rigid_bake::body::BodySpec;
 use langevin_rigid_bake::shapes::Shape;
@@ -40,7 +40,7 @@ use raw::{RawFluid, RawPicture, RawRun, RawScatter, RawScene, RawTank, given};
 pub use registry::{BUILT_IN, BuiltIn, FindError, find};
 pub use run::StepsError;
 use seed::Seed;
-pub use wind::{SceneField, WindPart};
+pub use wind::{SceneField, SceneWindError, WindPart};
 
 /// A scene, checked and complete.
 #[derive(Debug, Clone, PartialEq)]
@@ -206,8 +206,8 @@ impl Scene {
     /// The wind of its run.
     ///
     /// # Errors
-    /// [`WindError`]; none for a scene that was read.
-    pub fn make_wind(&self) -> Result<Wind, WindError> {
+    /// [`SceneWindError`]; for a scene that was read only where the file of a table is none.
+    pub fn make_wind(&self) -> Result<Wind, SceneWindError> {
         wind::wind(&self.wind, self.seed)
     }
 
@@ -285,15 +285,17 @@ impl Scene {
             tank: self.tank.map(|tank| RawTank {
                 size: Spanned::new(0..0, tank.size.to_vec()),
             }),
-            wind: self.wind.iter().map(wind::write).collect(),
+            wind: self
+                .wind
+                .iter()
+                .map(wind::write)
+                .collect::<Result<_, _>>()?,
         })
     }
 }
 
 /// Of the body and the fluid at the release (m/s).
 fn relative_speed(release: &State, fluid: &Fluid, parts: &[WindPart], seed: u64) -> f64 {
-    // A wind that cannot be made is told elsewhere.
-    let wind = wind::wind(parts, seed).unwrap_or_default();
-    let gust = wind.flow(release.position, 0.0, fluid.velocity).velocity;
+    let gust = wind::at_release(parts, seed, release.position);
     norm(sub(release.world_velocity(), add(fluid.velocity, gust)))
 }

@@ -176,7 +176,7 @@ pub(super) fn write(source: &BodySource) -> Result<RawBody, WriteSceneError> {
             unit,
             thickness,
         } => RawBody {
-            mesh: given(utf8(path)?),
+            mesh: given(utf8(path, "its mesh")?),
             unit: unit.and_then(|unit| given(unit.to_string())),
             thickness: thickness.and_then(given),
             ..RawBody::default()
@@ -199,12 +199,13 @@ pub(super) fn write(source: &BodySource) -> Result<RawBody, WriteSceneError> {
     Ok(raw)
 }
 
-fn utf8(path: &Path) -> Result<String, WriteSceneError> {
+/// The path of a file that belongs to `whose`.
+pub(super) fn utf8(path: &Path, whose: &str) -> Result<String, WriteSceneError> {
     path.to_str()
         .map(ToOwned::to_owned)
         .ok_or_else(|| WriteSceneError {
             message: format!(
-                "the path of its mesh, `{}`, is not UTF-8: rename the file or its folder",
+                "the path of {whose}, `{}`, is not UTF-8: rename the file or its folder",
                 path.display()
             ),
         })

@@ -166,6 +166,7 @@ pub(super) struct RawWind {
     pub(super) core: Given<f64>,
     pub(super) speed: Given<f64>,
     pub(super) diameter: Given<f64>,
+    pub(super) file: Given<String>,
     pub(super) within: Option<Spanned<RawWithin>>,
 }
 

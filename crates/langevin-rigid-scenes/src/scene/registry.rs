@@ -6,7 +6,7 @@ use std::path::Path;
 
 use langevin_rigid::{UnknownName, choose};
 
-use super::{Geometry, Scene, SceneError};
+use super::{Geometry, Scene, SceneError, SceneField};
 
 /// A scene that is part of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,7 +94,7 @@ pub enum FindError {
 
 /// Opens the built-in scene of that name, or else the scene file at that path.
 ///
-/// A mesh path in a file becomes relative to the current folder.
+/// The path of a mesh or a wind in a file becomes relative to the current folder.
 ///
 /// # Errors
 /// See [`FindError`].
@@ -119,10 +119,15 @@ pub fn find(name: &str) -> Result<Scene, FindError> {
         .file_stem()
         .map_or_else(|| name.into(), |s| s.to_string_lossy());
     let mut scene = Scene::parse(&stem, name, &text)?;
-    if let Geometry::Mesh { path: mesh, .. } = &mut scene.body.geometry
-        && let Some(folder) = path.parent()
-    {
-        *mesh = folder.join(&mesh);
+    if let Some(folder) = path.parent() {
+        if let Geometry::Mesh { path, .. } = &mut scene.body.geometry {
+            *path = folder.join(&path);
+        }
+        for part in &mut scene.wind {
+            if let SceneField::Table { path } = &mut part.field {
+                *path = folder.join(&path);
+            }
+        }
     }
     Ok(scene)
 }

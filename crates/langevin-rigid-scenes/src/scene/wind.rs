@@ -1,13 +1,17 @@
 //! The wind of a scene.
 
 use std::ops::Range;
+use std::path::PathBuf;
 
 use langevin_rigid::linalg::vector::add;
 use langevin_rigid::wind::{
     GustSettings, Gusts, Jet, Profile, Region, Shear, Vortex, Wind, WindError, WindField,
 };
+use langevin_rigid_formats::wind_table::{ReadTableError, read_wind_table};
 use serde_spanned::Spanned;
 
+use super::WriteSceneError;
+use super::body::utf8;
 use super::place::{Document, SceneError, length};
 use super::quantity::{CIRCULATION, DEVIATION, DIRECTION, EXPONENT, PLACE, SIZE, SPEED};
 use super::raw::{Given, RawWind, RawWithin, given};
@@ -44,10 +48,27 @@ pub enum SceneField {
     Vortex(Vortex),
     /// What a fan blows.
     Jet(Jet),
+    /// Velocities on a grid.
+    Table {
+        /// An NPZ file ([`read_wind_table`]); relative paths start from the scene's folder.
+        path: PathBuf,
+    },
+}
+
+/// Why a scene has no wind.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneWindError {
+    /// A field is none.
+    #[error(transparent)]
+    Field(#[from] WindError),
+    /// A table cannot be read.
+    #[error(transparent)]
+    Table(#[from] ReadTableError),
 }
 
 /// The fields by name, and the keys of each beside `field` and `within`.
-const FIELDS: [(&str, &[&str]); 5] = [
+const FIELDS: [(&str, &[&str]); 6] = [
     ("uniform", &["velocity"]),
     (
         "shear",
@@ -56,13 +77,17 @@ const FIELDS: [(&str, &[&str]); 5] = [
     ("gusts", &["rms", "length", "smallest", "carried", "seed"]),
     ("vortex", &["centre", "axis", "circulation", "core"]),
     ("jet", &["centre", "axis", "speed", "diameter"]),
+    ("table", &["file"]),
 ];
 
 /// The wind that `parts` make in a run of this seed.
-pub(super) fn wind(parts: &[WindPart], seed: u64) -> Result<Wind, WindError> {
+pub(super) fn wind(parts: &[WindPart], seed: u64) -> Result<Wind, SceneWindError> {
     let mut wind = Wind::default();
     for (number, part) in parts.iter().enumerate() {
-        let field = field(&part.field, seed.wrapping_add(number as u64))?;
+        let field = match &part.field {
+            SceneField::Table { path } => read_wind_table(path)?.into(),
+            field => closed_form(field, seed.wrapping_add(number as u64))?,
+        };
         match part.within {
             Some(region) => wind.add_within(field, region)?,
             None => wind.add(field)?,
@@ -71,7 +96,8 @@ pub(super) fn wind(parts: &[WindPart], seed: u64) -> Result<Wind, WindError> {
     Ok(wind)
 }
 
-fn field(field: &SceneField, of_run: u64) -> Result<WindField, WindError> {
+/// Any field but a table, which has none here.
+fn closed_form(field: &SceneField, of_run: u64) -> Result<WindField, WindError> {
     Ok(match field {
         SceneField::Uniform(velocity) => WindField::Uniform(*velocity),
         SceneField::Shear(shear) => WindField::Shear(*shear),
@@ -81,7 +107,23 @@ fn field(field: &SceneField, of_run: u64) -> Result<WindField, WindError> {
             let seed = seed.unwrap_or(of_run);
             WindField::Gusts(Gusts::new(&GustSettings { seed, ..*settings })?)
         }
+        SceneField::Table { .. } => WindField::Uniform([0.0; 3]),
     })
+}
+
+/// The velocity at the place and time of a release (m/s), but for tables, which are not read yet.
+pub(super) fn at_release(parts: &[WindPart], seed: u64, position: [f64; 3]) -> [f64; 3] {
+    let closed = parts.iter().filter(|part| !part.is_table());
+    let closed: Vec<WindPart> = closed.cloned().collect();
+    // A wind that cannot be made is told elsewhere.
+    let wind = wind(&closed, seed).unwrap_or_default();
+    wind.flow(position, 0.0, [0.0; 3]).velocity
+}
+
+impl WindPart {
+    fn is_table(&self) -> bool {
+        matches!(self.field, SceneField::Table { .. })
+    }
 }
 
 /// `ground` is that of the run, `stream` the velocity of the fluid (m/s).
@@ -113,9 +155,8 @@ pub(super) fn resolve(
         {
             settings.carried = mean;
         }
-        // What no single number tells: an axis without length, eddies that do not go together.
-        wind(std::slice::from_ref(part), 0)
-            .map_err(|error| doc.error(raw.span(), error.to_string()))?;
+        // What no single number tells: eddies that do not go together.
+        closed_form(&part.field, 0).map_err(|error| doc.error(raw.span(), error.to_string()))?;
     }
     Ok(parts)
 }
@@ -161,6 +202,12 @@ fn part(doc: &Document, raw: &Spanned<RawWind>, ground: f64) -> Result<WindPart,
             circulation: needs.number(&given.circulation, "circulation", CIRCULATION)?,
             core: needs.number(&given.core, "core", SIZE)?,
         }),
+        "table" => SceneField::Table {
+            path: match &given.file {
+                Some(file) => file.get_ref().into(),
+                None => return Err(needs.missing("a `file`, the path of an NPZ file")),
+            },
+        },
         _ => SceneField::Jet(Jet {
             centre: needs.numbers(&given.centre, "centre")?,
             axis: needs.axis()?,
@@ -302,13 +349,16 @@ impl RawWind {
             ("core", at(&self.core)),
             ("speed", at(&self.speed)),
             ("diameter", at(&self.diameter)),
+            ("file", at(&self.file)),
         ];
         let present = all.into_iter();
         present.filter_map(|(key, place)| Some((key, place?)))
     }
 }
 
-pub(super) fn write(part: &WindPart) -> Spanned<RawWind> {
+/// # Errors
+/// A path that TOML, which is UTF-8, cannot hold.
+pub(super) fn write(part: &WindPart) -> Result<Spanned<RawWind>, WriteSceneError> {
     let raw = match &part.field {
         SceneField::Uniform(velocity) => RawWind {
             field: given("uniform".to_owned()),
@@ -356,6 +406,11 @@ pub(super) fn write(part: &WindPart) -> Spanned<RawWind> {
             diameter: given(jet.diameter),
             ..RawWind::default()
         },
+        SceneField::Table { path } => RawWind {
+            field: given("table".to_owned()),
+            file: given(utf8(path, "a wind")?),
+            ..RawWind::default()
+        },
     };
     let within = part.within.map(|region| {
         let raw = match region {
@@ -379,7 +434,7 @@ pub(super) fn write(part: &WindPart) -> Spanned<RawWind> {
         };
         Spanned::new(0..0, raw)
     });
-    Spanned::new(0..0, RawWind { within, ..raw })
+    Ok(Spanned::new(0..0, RawWind { within, ..raw }))
 }
 
 #[cfg(test)]
@@ -425,12 +480,15 @@ mod tests {
         axis = [1, 1, 0]
         speed = 4.0
         diameter = 0.4
+        [[wind]]
+        field = "table"
+        file = "room.npz"
     "#;
 
     #[test]
     fn every_field_is_read_and_written_as_it_was() {
         let scene = parse(ALL).unwrap();
-        assert_eq!(scene.wind.len(), 5);
+        assert_eq!(scene.wind.len(), 6);
         let again = Scene::parse("box", "resolved", &scene.to_toml().unwrap()).unwrap();
         assert_eq!(again, scene);
         // The ground is the run's; fluid and winds everywhere carry the gusts.
@@ -439,12 +497,11 @@ mod tests {
             panic!("{:?}", scene.wind[2]);
         };
         assert_eq!((settings.carried, *seed), ([3.5, 0.0, 0.0], None));
-        let at = |seed: u64| {
-            let wind = wind(&scene.wind, seed).unwrap();
-            wind.flow([0.1, 0.2, 0.3], 0.0, [0.0; 3]).velocity
-        };
+        let at = |seed: u64| at_release(&scene.wind, seed, [0.1, 0.2, 0.3]);
         assert_eq!(at(1), at(1));
         assert_ne!(at(1), at(2));
+        let told = scene.make_wind().unwrap_err().to_string();
+        assert!(told.starts_with("room.npz: "), "{told}");
     }
 
     #[test]
