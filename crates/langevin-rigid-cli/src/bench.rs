@@ -5,13 +5,15 @@ use std::time::Instant;
 
 use anyhow::{Result, anyhow, bail};
 use langevin_rigid::turbulence::Turbulence;
+use langevin_rigid::wind::GustSettings;
 use langevin_rigid::{Batch, Model, Pack, Precision};
 use langevin_rigid_bake::added_mass;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::{Boundary, MacGrid, TurbulentFlow};
 use langevin_rigid_report::{Table, pages, paper};
-use langevin_rigid_scenes::{advance::advance, scene};
+use langevin_rigid_scenes::advance::advance;
+use langevin_rigid_scenes::scene::{self, Scene, SceneField, WindPart};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -51,6 +53,9 @@ struct Report {
     /// One step of one body under `separated`, and for each of many.
     step_separated: f64,
     step_separated_batch: f64,
+    /// The same two in gusts.
+    step_gusts: f64,
+    step_gusts_batch: f64,
     /// `step_batch` and `step_separated_batch` in single precision.
     step_batch_f32: f64,
     step_separated_batch_f32: f64,
@@ -71,23 +76,25 @@ pub(crate) fn bench(options: &Bench, bars: &Bars) -> Result<()> {
         pages::list(manual)?;
     }
     let threads = rayon::current_num_threads();
-    let on_one = step_batch::<f64>(Model::Consistent, BODIES, 1, bars)?;
-    let scaling = step_batch::<f64>(Model::Consistent, CROWD, 1, bars)?
-        / step_batch::<f64>(Model::Consistent, CROWD, threads, bars)?;
+    let on_one = step_batch::<f64>(&steady(Model::Consistent), BODIES, 1, bars)?;
+    let scaling = step_batch::<f64>(&steady(Model::Consistent), CROWD, 1, bars)?
+        / step_batch::<f64>(&steady(Model::Consistent), CROWD, threads, bars)?;
     let report = Report {
         version: env!("CARGO_PKG_VERSION"),
         threads,
-        step: step(BODY, Model::Consistent, bars)?,
+        step: step(BODY, &steady(Model::Consistent), bars)?,
         step_batch: on_one,
-        step_separated: step(BODY, Model::Separated, bars)?,
-        step_separated_batch: step_batch::<f64>(Model::Separated, BODIES, 1, bars)?,
-        step_batch_f32: step_batch::<f32>(Model::Consistent, BODIES, 1, bars)?,
-        step_separated_batch_f32: step_batch::<f32>(Model::Separated, BODIES, 1, bars)?,
+        step_separated: step(BODY, &steady(Model::Separated), bars)?,
+        step_separated_batch: step_batch::<f64>(&steady(Model::Separated), BODIES, 1, bars)?,
+        step_gusts: step(BODY, &GUSTY, bars)?,
+        step_gusts_batch: step_batch::<f64>(&GUSTY, BODIES, 1, bars)?,
+        step_batch_f32: step_batch::<f32>(&steady(Model::Consistent), BODIES, 1, bars)?,
+        step_separated_batch_f32: step_batch::<f32>(&steady(Model::Separated), BODIES, 1, bars)?,
         batch_scaling: scaling,
         table2: scene::BUILT_IN
             .iter()
             .filter(|row| row.name.starts_with(TABLE_2))
-            .map(|row| Ok((row.name, step(row.name, Model::Consistent, bars)?)))
+            .map(|row| Ok((row.name, step(row.name, &steady(Model::Consistent), bars)?)))
             .collect::<Result<_>>()?,
         added_mass_1280_ms: added_mass_ms(1280, bars)?,
         added_mass_5120_ms: added_mass_ms(5120, bars)?,
@@ -111,14 +118,15 @@ fn print(report: &Report) -> Result<()> {
     let mut out = say::out();
     writeln!(
         out,
-        "one step of one body: {:.0} ns (consistent), {:.0} ns (separated)",
-        report.step, report.step_separated
+        "one step of one body: {:.0} ns (consistent), {:.0} ns (separated), {:.0} ns (in gusts)",
+        report.step, report.step_separated, report.step_gusts
     )?;
     writeln!(
         out,
-        "of many, a body on one core: {:.0} ns, {:.0} ns; in single precision {:.0} ns, {:.0} ns",
+        "of many, a body on one core: {:.0} ns, {:.0} ns, {:.0} ns; in single precision {:.0} ns, {:.0} ns",
         report.step_batch,
         report.step_separated_batch,
+        report.step_gusts_batch,
         report.step_batch_f32,
         report.step_separated_batch_f32
     )?;
@@ -189,6 +197,18 @@ fn table(report: &Report) -> Table {
             "0.14 us",
         ],
         [
+            "step of one body in gusts, <code>separated</code>",
+            "",
+            &microseconds(report.step_gusts, 2),
+            "1.3 us",
+        ],
+        [
+            "of many, a body on one core",
+            "",
+            &microseconds(report.step_gusts_batch, 3),
+            "0.28 us",
+        ],
+        [
             "added mass, 1280 triangles",
             &format!("{:.0} ms", 1e3 * paper::ADDED_MASS_SECONDS),
             &format!("{:.1} ms", report.added_mass_1280_ms),
@@ -220,10 +240,43 @@ fn table(report: &Report) -> Table {
     Table::new("main", &["", "paper (2013, desktop)", "here", "aim"], &rows)
 }
 
+/// What is measured of a body.
+struct Conditions {
+    model: Model,
+    gusts: bool,
+}
+
+const GUSTY: Conditions = Conditions {
+    model: Model::Separated,
+    gusts: true,
+};
+
+fn steady(model: Model) -> Conditions {
+    Conditions {
+        model,
+        gusts: false,
+    }
+}
+
+impl Conditions {
+    fn of(&self, mut scene: Scene) -> Scene {
+        scene.set_model(self.model);
+        if self.gusts {
+            let settings = GustSettings::default();
+            let field = SceneField::Gusts {
+                settings,
+                seed: None,
+            };
+            let within = None;
+            scene.wind.push(WindPart { field, within });
+        }
+        scene
+    }
+}
+
 /// Nanoseconds a step of a built-in scene's body.
-fn step(name: &'static str, model: Model, bars: &Bars) -> Result<f64> {
-    let mut scene = scene::find(name)?;
-    scene.set_model(model);
+fn step(name: &'static str, conditions: &Conditions, bars: &Bars) -> Result<f64> {
+    let scene = conditions.of(scene::find(name)?);
     let prepared = cache::prepare(scene, bars)?;
     let (scene, stepper, wind) = (prepared.scene(), prepared.stepper(), prepared.wind());
     let seconds = median(REPEATS, name, bars, |repeat| {
@@ -239,11 +292,15 @@ fn step(name: &'static str, model: Model, bars: &Bars) -> Result<f64> {
 }
 
 /// Nanoseconds a step of each of so many bodies, shared among `threads`.
-fn step_batch<P: Precision>(model: Model, bodies: u32, threads: usize, bars: &Bars) -> Result<f64> {
-    let mut scene = scene::find(BODY)?;
-    scene.set_model(model);
+fn step_batch<P: Precision>(
+    conditions: &Conditions,
+    bodies: u32,
+    threads: usize,
+    bars: &Bars,
+) -> Result<f64> {
+    let scene = conditions.of(scene::find(BODY)?);
     let prepared = cache::prepare(scene, bars)?;
-    let (scene, stepper) = (prepared.scene(), prepared.stepper());
+    let (scene, stepper, wind) = (prepared.scene(), prepared.stepper(), prepared.wind());
     let steps = BODY_STEPS / bodies;
     let mut batch = Batch::<P>::new(0);
     for _ in 0..bodies {
@@ -254,7 +311,7 @@ fn step_batch<P: Precision>(model: Model, bodies: u32, threads: usize, bars: &Ba
     let seconds = median(REPEATS, "batch", bars, |_| {
         // Bodies do not meet: a thread takes its share through all steps.
         let through = |share: &mut [Pack<P>]| {
-            (0..steps).try_for_each(|_| stepper.step_packs(share, scene.time_step))
+            (0..steps).try_for_each(|_| stepper.step_packs_in(share, scene.time_step, wind, 0.0))
         };
         if threads == 1 {
             through(packs)?;
@@ -334,6 +391,8 @@ mod tests {
             step_batch: 37.0,
             step_separated: 810.0,
             step_separated_batch: 102.0,
+            step_gusts: 1300.0,
+            step_gusts_batch: 230.0,
             step_batch_f32: 21.0,
             step_separated_batch_f32: 55.0,
             batch_scaling: 1.97,

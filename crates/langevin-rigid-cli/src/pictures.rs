@@ -8,10 +8,9 @@ use langevin_rigid::Surface;
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::files;
 use langevin_rigid_pictures::{
-    Film, PictureError, PictureOptions, Pose, Subject, View, trajectory_picture,
+    Film, PictureError, PictureOptions, Pose, Subject, View, picture_in_flow, trajectory_picture,
 };
-use langevin_rigid_scenes::baking::Baked;
-use langevin_rigid_scenes::scene::Scene;
+use langevin_rigid_scenes::prepared::Prepared;
 use rayon::prelude::*;
 
 use crate::arguments::{Shown, Simulate, Viewpoint};
@@ -26,6 +25,7 @@ pub(crate) struct Shot<'a> {
     surface: &'a Surface,
     poses: &'a [Pose],
     options: PictureOptions,
+    prepared: &'a Prepared,
 }
 
 /// Frames on disk.
@@ -37,17 +37,14 @@ pub(crate) struct Written {
 }
 
 impl<'a> Shot<'a> {
-    pub(crate) fn new(
-        options: &Simulate,
-        scene: &Scene,
-        baked: &'a Baked,
-        poses: &'a [Pose],
-    ) -> Self {
+    pub(crate) fn new(options: &Simulate, prepared: &'a Prepared, poses: &'a [Pose]) -> Self {
+        let scene = prepared.scene();
         let (model, seed) = (scene.settings.model, scene.seed);
         let usual = PictureOptions::default();
         Self {
-            surface: &baked.bake.body.surface,
+            surface: &prepared.body().surface,
             poses,
+            prepared,
             options: PictureOptions {
                 title: Some(format!("{} ({model}, seed {seed})", scene.name)),
                 ground: scene.stop.ground,
@@ -74,7 +71,14 @@ impl<'a> Shot<'a> {
 
     /// The bytes of the PNG.
     pub(crate) fn picture(&self) -> Result<Vec<u8>, PictureError> {
-        trajectory_picture(&self.subject(), self.poses, &self.options)?.png()
+        let (subject, options) = (self.subject(), &self.options);
+        if self.prepared.is_still() {
+            return trajectory_picture(&subject, self.poses, options)?.png();
+        }
+        let [first, last] = [self.poses.first(), self.poses.last()];
+        let over = [first, last].map(|pose| pose.map_or(0.0, |pose| pose.time));
+        let flow = |place| self.prepared.mean_flow(place, over);
+        picture_in_flow(&subject, self.poses, options, &flow)?.png()
     }
 }
 

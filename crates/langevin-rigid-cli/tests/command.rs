@@ -482,6 +482,8 @@ fn bench_prints_a_positive_figure_for_each_of_its_names() {
         "step_separated",
         "step_separated_batch",
         "step_separated_batch_f32",
+        "step_gusts",
+        "step_gusts_batch",
         "batch_scaling",
         "added_mass_1280_ms",
         "added_mass_5120_ms",

@@ -37,7 +37,8 @@
 //!
 //! # What it draws
 //!
-//! - [`trajectory_picture`]: the body at equal times, the path between, ground and scale. The interval between bodies is
+//! - [`trajectory_picture`]: the body at equal times, the path between, ground and scale; [`picture_in_flow`] adds arrows of the
+//!   fluid. The interval between bodies is
 //!   the shortest round one at which they stay apart. The two sides of the body differ in colour, so that a flip shows;
 //!   the path darkens with time. A body that would be too small beside its path is magnified, and the caption says how
 //!   much.
@@ -57,6 +58,7 @@
 //!
 //! There are no features to choose. The font is Inter, which is part of the crate under the SIL Open Font License.
 
+mod arrows;
 mod axes;
 mod camera;
 mod canvas;
@@ -79,6 +81,7 @@ mod solid;
 mod strobe;
 mod vector;
 
+use arrows::Arrows;
 use canvas::Canvas;
 pub use film::Film;
 use hull::Hull;
@@ -314,6 +317,44 @@ pub fn trajectory_picture(
     poses: &[Pose],
     options: &PictureOptions,
 ) -> Result<Picture, PictureError> {
+    picture(subject, poses, options, None)
+}
+
+/// The same with arrows of what the fluid does behind it, `velocity` (m/s) of a place (m), world frame: on the plane of each
+/// view through the middle of the motion. There are none in [`View::Iso`].
+///
+/// ```
+/// use langevin_rigid_pictures::{PictureOptions, Pose, Subject, picture_in_flow};
+/// let sheet = Subject {
+///     vertices: &[[-0.1, 0.0, -0.1], [0.1, 0.0, -0.1], [0.1, 0.0, 0.1], [-0.1, 0.0, 0.1]],
+///     triangles: &[[0, 2, 1], [0, 3, 2]],
+/// };
+/// let drift = |time: f64| Pose { time, position: [time, -time, 0.0], orientation: [0.0, 0.0, 0.0, 1.0] };
+/// let poses: Vec<Pose> = (0..=50).map(|k| drift(0.02 * f64::from(k))).collect();
+/// let shear = |[_, y, _]: [f64; 3]| [1.0 + 0.5 * y, 0.0, 0.0];
+/// let picture = picture_in_flow(&sheet, &poses, &PictureOptions::default(), &shear)?;
+/// assert!(picture.width() > 0);
+/// # Ok::<(), langevin_rigid_pictures::PictureError>(())
+/// ```
+///
+/// # Errors
+///
+/// As [`trajectory_picture`].
+pub fn picture_in_flow(
+    subject: &Subject<'_>,
+    poses: &[Pose],
+    options: &PictureOptions,
+    velocity: &dyn Fn([f64; 3]) -> [f64; 3],
+) -> Result<Picture, PictureError> {
+    picture(subject, poses, options, Some(velocity))
+}
+
+fn picture(
+    subject: &Subject<'_>,
+    poses: &[Pose],
+    options: &PictureOptions,
+    velocity: Option<&dyn Fn([f64; 3]) -> [f64; 3]>,
+) -> Result<Picture, PictureError> {
     let track = Track::new(poses)?;
     let solid = Solid::new(subject)?;
     let layout = Layout::new(&solid, &track, options)?;
@@ -329,8 +370,12 @@ pub fn trajectory_picture(
     } else {
         Trail::None
     };
-    for panel in &layout.panels {
+    let arrows = velocity.map(|velocity| Arrows::new(&layout, options.ground, velocity));
+    for (number, panel) in layout.panels.iter().enumerate() {
         axes::draw(&mut canvas, &layout, panel, &axes::Ticks::new(&layout));
+        if let Some(arrows) = &arrows {
+            arrows.draw(&mut canvas, &layout, number);
+        }
         scene::draw(
             &mut canvas,
             &layout,
@@ -341,7 +386,10 @@ pub fn trajectory_picture(
             trail,
         );
     }
-    let words = legend::caption(&layout, &instants);
+    let mut words = legend::caption(&layout, &instants);
+    if let Some(told) = arrows.as_ref().and_then(Arrows::caption) {
+        words = format!("{words}; {told}");
+    }
     legend::draw_header(&mut canvas, &layout, options.title.as_deref(), &words);
     legend::draw_legend(&mut canvas, &layout, &solid, &track, options.path);
     Ok(Picture {

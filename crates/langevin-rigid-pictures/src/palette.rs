@@ -11,6 +11,8 @@ pub(super) const FAINT_TEXT: Colour = [98, 107, 120];
 pub(super) const OUTLINE: Colour = [38, 42, 52];
 pub(super) const GROUND: Colour = [222, 213, 198];
 pub(super) const GROUND_LINE: Colour = [122, 106, 82];
+/// Arrows of the fluid, behind everything.
+pub(super) const ARROW: Colour = [166, 190, 214];
 pub(super) const SHADOW: Colour = [60, 64, 74];
 
 /// The face of the body on the positive side of its thin axis, the other face, and the rim.

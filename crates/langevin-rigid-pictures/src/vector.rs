@@ -19,3 +19,7 @@ pub(super) fn mul_mat(a: &Mat3, b: &Mat3) -> Mat3 {
     let columns = [column(0), column(1), column(2)];
     a.map(|row| columns.map(|c| dot(row, c)))
 }
+
+pub(super) fn transposed_mat_vec(m: &Mat3, a: Vec3) -> Vec3 {
+    std::array::from_fn(|i| m[0][i] * a[0] + m[1][i] * a[1] + m[2][i] * a[2])
+}

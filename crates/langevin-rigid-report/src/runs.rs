@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use langevin_rigid::{Ending, Model, State, Stepper, TurbulenceSource, UnitSystem};
 use langevin_rigid_bake::progress::{Progress, Silent};
-use langevin_rigid_pictures::{Picture, PictureOptions, Pose, Subject, View, trajectory_picture};
+use langevin_rigid_pictures::{
+    Picture, PictureOptions, Pose, Subject, View, picture_in_flow, trajectory_picture,
+};
 use langevin_rigid_scenes::baking::{self, Baked};
 use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene::{self, Scene};
@@ -183,7 +185,14 @@ impl Setting {
             interval,
             ..PictureOptions::default()
         };
-        Ok(trajectory_picture(&subject, &poses, &options)?)
+        let prepared = Prepared::of(self.scene.clone(), Arc::clone(&self.baked))?;
+        if prepared.is_still() {
+            return Ok(trajectory_picture(&subject, &poses, &options)?);
+        }
+        let [first, last] = [fall.states.first(), fall.states.last()];
+        let over = [first, last].map(|state| state.map_or(0.0, |state| state.time));
+        let flow = |place| prepared.mean_flow(place, over);
+        Ok(picture_in_flow(&subject, &poses, &options, &flow)?)
     }
 }
 

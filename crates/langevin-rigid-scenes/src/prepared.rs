@@ -5,6 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use langevin_rigid::linalg::Vec3;
+use langevin_rigid::linalg::vector::{add, scale};
 use langevin_rigid::wind::Wind;
 use langevin_rigid::{Body, Ending, Hull, NoiseStream, SetupError, State, StepError, Stepper, run};
 use langevin_rigid_bake::progress::{Progress, Silent};
@@ -197,6 +199,24 @@ impl Prepared {
     /// Its wind.
     pub fn wind(&self) -> &Wind {
         &self.wind
+    }
+
+    /// Whether its fluid is at rest everywhere.
+    pub fn is_still(&self) -> bool {
+        self.wind.is_empty() && self.scene.fluid.velocity == [0.0; 3]
+    }
+
+    /// Mean velocity of the fluid at a place (m, world frame) between two times (s), m/s: for a picture of it.
+    pub fn mean_flow(&self, place: Vec3, [from, to]: [f64; 2]) -> Vec3 {
+        const MOMENTS: u32 = 16;
+        let stream = self.scene.fluid.velocity;
+        let winds = (0..MOMENTS).map(|moment| {
+            let share = (f64::from(moment) + 0.5) / f64::from(MOMENTS);
+            let time = from + share * (to - from);
+            self.wind.flow(place, time, stream).velocity
+        });
+        let sum = winds.fold([0.0; 3], add);
+        add(stream, scale(1.0 / f64::from(MOMENTS), sum))
     }
 
     /// What touches the ground.
