@@ -59,7 +59,7 @@ impl Default for GustSettings {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gusts {
     settings: GustSettings,
-    modes: Modes,
+    modes: Box<Modes>,
 }
 
 /// One Fourier mode: p cos(phase) + q sin(phase).
@@ -166,7 +166,7 @@ impl Gusts {
         }
         Ok(Self {
             settings: *settings,
-            modes: Modes::new(&modes),
+            modes: Box::new(Modes::new(&modes)),
         })
     }
 
