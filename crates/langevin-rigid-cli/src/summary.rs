@@ -53,7 +53,7 @@ pub(crate) struct Energy {
     pub(crate) kinetic_at_end: f64,
     /// Work of gravity less buoyancy.
     pub(crate) weight_work: f64,
-    /// What the turbulence took, net of what its noise gave.
+    /// What the fluid took, net of what its turbulence and the wind gave.
     pub(crate) dissipated: f64,
 }
 

@@ -46,8 +46,9 @@
 //!
 //! # Modules
 //!
-//! Everything is at the root except two modules: [`linalg`], the vectors, rotations and small matrices that the types are
-//! written in, and [`turbulence`], the precomputed history and the coefficients of the Langevin equation. [`Wake`],
+//! Everything is at the root except three modules: [`linalg`], the vectors, rotations and small matrices that the types are
+//! written in; [`turbulence`], the precomputed history and the coefficients of the Langevin equation; and [`wind`], velocity
+//! fields that vary in space and time, which give a step its [`Flow`]. [`Wake`],
 //! [`stokes_translation`] and [`shift_added_mass`] are what the precomputation shares with the run time.
 //!
 //! # Features
