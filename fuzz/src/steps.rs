@@ -1,9 +1,8 @@
 //! From a scene to 300 steps.
 
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use langevin_rigid::linalg::{eigen_symmetric, quat_from_rotation_vector};
-use langevin_rigid::wind::Wind;
 use langevin_rigid::{
     Bake, Batch, Body, Fluid, Model, NoiseStream, SPEED_LIMIT, State, StepError, Stepper,
     TurbulenceHistory, TurbulenceSource,
@@ -11,8 +10,8 @@ use langevin_rigid::{
 use langevin_rigid_bake::body::{BodySpec, bake_body};
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_scenes::advance::advance;
-use langevin_rigid_scenes::baking::stepper;
-use langevin_rigid_scenes::prepared::Release;
+use langevin_rigid_scenes::baking::Baked;
+use langevin_rigid_scenes::prepared::{Prepared, Release};
 use langevin_rigid_scenes::scene::Scene;
 
 use crate::numbers::Numbers;
@@ -43,8 +42,15 @@ pub(crate) fn fall(bytes: &[u8], models: &[Model]) {
         warnings: Vec::new(),
         fingerprint: [0; 32],
     };
-    let stepper = stepper(&scene, &bake).unwrap();
-    in_lanes(&scene, &stepper);
+    let baked = Baked {
+        bake,
+        notices: Vec::new(),
+        cached: false,
+        cache_trouble: None,
+    };
+    let prepared = Prepared::of(scene, Arc::new(baked)).unwrap();
+    let (scene, stepper) = (prepared.scene(), prepared.stepper());
+    in_lanes(scene, stepper);
     let release = Release {
         state: scene.release,
         noise: NoiseStream {
@@ -54,11 +60,11 @@ pub(crate) fn fall(bytes: &[u8], models: &[Model]) {
     };
     let mut state = release.state;
     for _ in 0..if absurd { FAST_STEPS } else { STEPS } {
-        match advance(&scene, &stepper, &Wind::default(), &release, &mut state) {
+        match advance(&prepared, &release, &mut state) {
             Ok(()) => assert!(state.is_finite(), "{state:?}"),
             Err(error) => {
                 assert!(
-                    absurd && is_absurd(&error, &stepper, &bake.body, &state),
+                    absurd && is_absurd(&error, stepper, prepared.body(), &state),
                     "{error}: {state:?} {scene:?}"
                 );
                 return;

@@ -278,13 +278,12 @@ impl Conditions {
 fn step(name: &'static str, conditions: &Conditions, bars: &Bars) -> Result<f64> {
     let scene = conditions.of(scene::find(name)?);
     let prepared = cache::prepare(scene, bars)?;
-    let (scene, stepper, wind) = (prepared.scene(), prepared.stepper(), prepared.wind());
     let seconds = median(REPEATS, name, bars, |repeat| {
         let mut release = prepared.release(0);
         release.noise.seed = repeat as u64;
         let mut state = release.state;
         for _ in 0..STEPS {
-            advance(scene, stepper, wind, &release, &mut state)?;
+            advance(&prepared, &release, &mut state)?;
         }
         Ok(())
     })?;

@@ -1,30 +1,25 @@
 //! One step of a scene: the stepper's, and what else the body meets there.
 
-use langevin_rigid::wind::Wind;
-use langevin_rigid::{Input, State, StepError, Stepper};
+use langevin_rigid::{Input, State, StepError};
 
-use crate::prepared::Release;
+use crate::prepared::{Prepared, Release};
 use crate::scene::Scene;
 
 /// Advances `state` by the scene's time step.
 ///
-/// While it is [carried](Scene::carried) the body moves with its release velocity and does not turn.
-/// The wind is as it is where and when the step begins. The walls of a [tank](langevin_rigid::Tank), around the release, hold the centre of mass.
+/// While it is [carried](crate::scene::Scene::carried) the body moves with its release velocity and does not turn. The wind
+/// is as it is where and when the step begins. The walls of a [tank](langevin_rigid::Tank), around the release, hold the
+/// centre of mass.
 ///
 /// # Errors
-/// Those of [`Stepper::step`], with `state` as it was.
-pub fn advance(
-    scene: &Scene,
-    stepper: &Stepper,
-    wind: &Wind,
-    release: &Release,
-    state: &mut State,
-) -> Result<(), StepError> {
+/// Those of [`Stepper::step`](langevin_rigid::Stepper::step), with `state` as it was.
+pub fn advance(prepared: &Prepared, release: &Release, state: &mut State) -> Result<(), StepError> {
+    let scene = prepared.scene();
     if is_carried(scene, state) {
         state.carry(scene.time_step);
     } else {
-        let input = blown(scene, wind, release, state, 0.0);
-        stepper.step(state, scene.time_step, &input)?;
+        let input = blown(prepared, release, state, 0.0);
+        prepared.stepper().step(state, scene.time_step, &input)?;
     }
     if let Some(tank) = &scene.tank {
         tank.hold(release.state.position, state);
@@ -33,16 +28,11 @@ pub fn advance(
 }
 
 /// What a body meets, so much later (s) than by its own time.
-pub(crate) fn blown(
-    scene: &Scene,
-    wind: &Wind,
-    release: &Release,
-    state: &State,
-    later: f64,
-) -> Input {
+pub(crate) fn blown(prepared: &Prepared, release: &Release, state: &State, later: f64) -> Input {
+    let (wind, stream) = (prepared.wind(), prepared.scene().fluid.velocity);
     let mut input = Input::with_noise(release.noise);
     if !wind.is_empty() {
-        input.flow = wind.flow(state.position, state.time + later, scene.fluid.velocity);
+        input.flow = wind.flow(state.position, state.time + later, stream);
     }
     input
 }
@@ -58,7 +48,6 @@ mod tests {
     use langevin_rigid::NoiseStream;
 
     use super::*;
-    use crate::baking;
 
     #[test]
     fn a_carried_body_moves_on_a_line_until_it_is_let_go() {
@@ -69,22 +58,22 @@ mod tests {
             release = { velocity = [0.1, -0.3, 0.0], tilt = 20.0, carried = 0.05 }
         "#;
         let scene = Scene::parse("coin", "coin.toml", text).unwrap();
-        let bake = baking::bake_scene(&scene, None, &()).unwrap().bake;
-        let stepper = baking::stepper(&scene, &bake).unwrap();
+        let prepared = Prepared::new(scene, None, &()).unwrap();
+        let scene = prepared.scene();
         let release = Release {
             state: scene.release,
             noise: NoiseStream::default(),
         };
         let mut state = release.state;
         for _ in 0..50 {
-            advance(&scene, &stepper, &Wind::default(), &release, &mut state).unwrap();
+            advance(&prepared, &release, &mut state).unwrap();
         }
         assert_eq!(state.orientation, scene.release.orientation);
         assert_eq!(state.velocity, scene.release.velocity);
         for (x, wanted) in state.position.into_iter().zip([0.005, -0.015, 0.0]) {
             assert!((x - wanted).abs() < 1e-12, "{x} for {wanted}");
         }
-        advance(&scene, &stepper, &Wind::default(), &release, &mut state).unwrap();
+        advance(&prepared, &release, &mut state).unwrap();
         assert_ne!(state.velocity, scene.release.velocity);
     }
 }

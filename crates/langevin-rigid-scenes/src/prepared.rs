@@ -266,7 +266,7 @@ impl Prepared {
     ) -> Result<Ending, StepError> {
         let mut state = release.state;
         run(
-            |state| advance(&self.scene, &self.stepper, &self.wind, release, state),
+            |state| advance(self, release, state),
             &mut state,
             self.scene.time_step,
             &self.hull,

@@ -6,28 +6,25 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid::linalg::{eigen_symmetric, rotate};
-use langevin_rigid::wind::Wind;
-use langevin_rigid::{Bake, NoiseStream, State};
-use langevin_rigid_scenes::scene::{Scene, find};
-use langevin_rigid_scenes::{advance::advance, baking, prepared::Release};
+use langevin_rigid::{NoiseStream, State};
+use langevin_rigid_scenes::advance::advance;
+use langevin_rigid_scenes::prepared::{Prepared, Release};
+use langevin_rigid_scenes::scene::find;
 
-fn baked(name: &str) -> (Scene, Bake) {
-    let scene = find(name).unwrap();
-    let bake = baking::bake_scene(&scene, None, &()).unwrap().bake;
-    (scene, bake)
+fn prepared(name: &str) -> Prepared {
+    Prepared::new(find(name).unwrap(), None, &()).unwrap()
 }
 
 /// The states from the release to `seconds` later.
-fn fall(scene: &Scene, bake: &Bake, seed: u64, seconds: f64) -> Vec<State> {
-    let stepper = baking::stepper(scene, bake).unwrap();
+fn fall(prepared: &Prepared, seed: u64, seconds: f64) -> Vec<State> {
     let release = Release {
-        state: scene.release,
+        state: prepared.scene().release,
         noise: NoiseStream { seed, body: 0 },
     };
     let mut states = vec![release.state];
     let mut state = release.state;
     while state.time < seconds {
-        advance(scene, &stepper, &Wind::default(), &release, &mut state).unwrap();
+        advance(prepared, &release, &mut state).unwrap();
         states.push(state);
     }
     states
@@ -45,10 +42,10 @@ fn sinking(states: &[State]) -> f64 {
 
 #[test]
 fn a_maple_seed_spins_itself_down() {
-    let (scene, bake) = baked("maple-seed");
-    assert!(bake.body.slices.len() > 1);
+    let seed_body = prepared("maple-seed");
+    assert!(seed_body.body().slices.len() > 1);
     for seed in 0..10 {
-        let states = fall(&scene, &bake, seed, 4.0);
+        let states = fall(&seed_body, seed, 4.0);
         let turns = late(&states, |s| s.world_angular_velocity()[1]) / std::f64::consts::TAU;
         assert!(
             (10.0..22.0).contains(&turns),
@@ -73,14 +70,15 @@ fn leaves_and_feathers_wander_and_turn_on_their_way() {
     // One fall among ten may be fast or slow by half: the middle one is the measure, beside the speed of a steady
     // fall broadside.
     for name in ["leaf", "feather"] {
-        let (scene, bake) = baked(name);
-        let ([.., broadside], _) = eigen_symmetric(&bake.body.separation.drag_area);
-        let steady = (2.0 * bake.body.mass * 9.80665 / (scene.fluid.density * broadside)).sqrt();
+        let prepared = prepared(name);
+        let (body, density) = (prepared.body(), prepared.scene().fluid.density);
+        let ([.., broadside], _) = eigen_symmetric(&body.separation.drag_area);
+        let steady = (2.0 * body.mass * 9.80665 / (density * broadside)).sqrt();
         let mut speeds = Vec::new();
         let mut apart = 0.0f64;
         let mut first: Option<State> = None;
         for seed in 0..10 {
-            let states = fall(&scene, &bake, seed, 2.0);
+            let states = fall(&prepared, seed, 2.0);
             speeds.push(sinking(&states));
             let up = |s: &State| rotate(s.orientation, [0.0, 1.0, 0.0])[1];
             let least = states.iter().map(up).fold(1.0, f64::min);

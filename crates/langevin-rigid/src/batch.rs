@@ -401,7 +401,8 @@ impl<P: Precision> Pack<P> {
         let mut velocity = [[0.0; PACK]; 3];
         let mut acceleration = [[0.0; PACK]; 3];
         let mut gradient = [[[0.0; PACK]; 3]; 3];
-        let mut sound = 0;
+        // Where there is no body nothing is wrong.
+        let mut sound = u64::MAX << self.taken;
         let count = <Doubles<S> as Lanes<S>>::COUNT;
         let tables = in_wind.wind.has_tables();
         for first in (0..self.taken).step_by(count) {

@@ -14,6 +14,7 @@ pub use shear::{Profile, Shear};
 pub use table::{Table, TableError};
 pub use vortex::Vortex;
 
+use crate::elementary::polynomial;
 use crate::input::Flow;
 use crate::linalg::{Mat3, Vec3, add, add_scaled, dot, lift, mat_vec, norm, scale, sub};
 use crate::real::Real;
@@ -332,35 +333,31 @@ fn decayed<R: Real>(z: R, exponential: R) -> (R, R) {
     let safe = R::choose(small, one, z);
     let value = (one - exponential) / safe;
     let slope = (exponential - value) / safe;
-    let series = crate::elementary::polynomial(
-        z,
-        &[
-            1.0,
-            -0.5,
-            1.0 / 6.0,
-            -1.0 / 24.0,
-            1.0 / 120.0,
-            -1.0 / 720.0,
-            1.0 / 5040.0,
-        ],
-    );
-    let series_slope = crate::elementary::polynomial(
-        z,
-        &[
-            -0.5,
-            1.0 / 3.0,
-            -0.125,
-            1.0 / 30.0,
-            -1.0 / 144.0,
-            1.0 / 840.0,
-            -1.0 / 5760.0,
-        ],
-    );
     (
-        R::choose(small, series, value),
-        R::choose(small, series_slope, slope),
+        R::choose(small, polynomial(z, &DECAYED), value),
+        R::choose(small, polynomial(z, &DECAYED_SLOPE), slope),
     )
 }
+
+/// Taylor's series of (1 - e^-z)/z and of its derivative.
+const DECAYED: [f64; 7] = [
+    1.0,
+    -1.0 / 2.0,
+    1.0 / 6.0,
+    -1.0 / 24.0,
+    1.0 / 120.0,
+    -1.0 / 720.0,
+    1.0 / 5040.0,
+];
+const DECAYED_SLOPE: [f64; 7] = [
+    -1.0 / 2.0,
+    1.0 / 3.0,
+    -1.0 / 8.0,
+    1.0 / 30.0,
+    -1.0 / 144.0,
+    1.0 / 840.0,
+    -1.0 / 5760.0,
+];
 
 /// The place relative to a line through `centre` along `axis`: how far along it, and the way to it from the line.
 #[inline(always)]

@@ -145,7 +145,7 @@ impl Setup<'_> {
             if stopped.contains(&fall.release.noise.body) {
                 let mut again = state;
                 let later = APART * f64::from(fall.release.noise.body);
-                let input = blown(scene, wind, &fall.release, &state, later);
+                let input = blown(self.prepared, &fall.release, &state, later);
                 let error = stepper.step(&mut again, scene.time_step, &input).err();
                 let words = error.map_or_else(String::new, |error| error.to_string());
                 ending = Some(FallEnding::Diverged(words));
@@ -187,13 +187,7 @@ impl Setup<'_> {
                 return Start::Free(Box::new(fall), state);
             }
             let before = state;
-            if let Err(error) = advance(
-                scene,
-                self.prepared.stepper(),
-                self.prepared.wind(),
-                &release,
-                &mut state,
-            ) {
+            if let Err(error) = advance(self.prepared, &release, &mut state) {
                 let ending = FallEnding::Diverged(error.to_string());
                 return Start::Over(self.ended(fall, &state, ending));
             }

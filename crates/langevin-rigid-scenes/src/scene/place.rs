@@ -110,8 +110,19 @@ impl Document<'_> {
         key: &str,
         kind: Kind,
     ) -> Result<[f64; N], SceneError> {
+        self.numbers_within(values, key, kind, 1.0)
+    }
+
+    /// The same where they may be so many times larger.
+    fn numbers_within<const N: usize>(
+        &self,
+        values: &Spanned<Vec<f64>>,
+        key: &str,
+        kind: Kind,
+        times: f64,
+    ) -> Result<[f64; N], SceneError> {
         let numbers: [f64; N] = self.array(values, key)?;
-        match numbers.iter().find(|x| !kind.includes(**x)) {
+        match numbers.iter().find(|x| !kind.includes(**x / times)) {
             None => Ok(numbers),
             Some(x) => {
                 let what = kind.named(key);
@@ -131,7 +142,7 @@ impl Document<'_> {
         let Some(values) = value else {
             return Ok([0.0; 3]);
         };
-        let vector = self.numbers(values, key, kind)?;
+        let vector = self.numbers_within(values, key, kind, ROUNDING)?;
         let length = length(&vector);
         if length <= kind.most * ROUNDING {
             return Ok(vector);

@@ -272,6 +272,20 @@ fn a_scene_that_ends_anywhere_is_read_or_refused_in_its_text() {
     }
 }
 
+#[test]
+fn velocities_at_their_limit_are_written_as_they_were_read() {
+    // In the other frame the last of them is above the limit by rounding.
+    for tilt in 0..200 {
+        let (text, _) = written(&[
+            ("release", "tilt", tilt.to_string()),
+            ("release", "tilt_axis", "[1.0, 2.0, 3.0]".into()),
+            ("release", "velocity", "[0.0, 0.0, 1e6]".into()),
+        ]);
+        let scene = parse(&text).unwrap();
+        assert_eq!(parse(&scene.to_toml().unwrap()).unwrap(), scene, "{tilt}");
+    }
+}
+
 /// A scene in which no number is infinite or not one.
 fn is_finite(scene: &Scene) -> bool {
     // The debug form has every number in it.
