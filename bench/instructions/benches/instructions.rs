@@ -96,7 +96,7 @@ fn step(stepper: Stepper) -> State {
 // 100 steps of each of 64 bodies, in the lanes that valgrind knows: four of doubles.
 #[library_benchmark]
 #[bench::consistent(args = (Model::Consistent), setup = many, config = about(7_067_517))]
-#[bench::separated(args = (Model::Separated), setup = many, config = about(16_772_691))]
+#[bench::separated(args = (Model::Separated), setup = many, config = about(15_708_594))]
 fn step_batch((stepper, mut batch): (Stepper, Batch)) -> Batch {
     for _ in 0..STEPS {
         stepper.step_batch(black_box(&mut batch), 5e-3).unwrap();
