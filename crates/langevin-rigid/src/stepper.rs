@@ -8,7 +8,7 @@ use crate::equations::{Equations, FluidLoads, Noise, SPEED_LIMIT, is_unit, possi
 use crate::fluid::Fluid;
 use crate::input::{Forcing, Input};
 use crate::kirchhoff::{Kirchhoff, Motion};
-use crate::linalg::{Vec3, add, cross, join, mul, rotate, split};
+use crate::linalg::{Mat6, Vec3, add, cross, join, mul, rotate, split};
 use crate::noise::Counter;
 use crate::pace::Pace;
 use crate::settings::{Model, Settings};
@@ -190,6 +190,27 @@ impl Stepper {
     /// Reynolds number of the run: see [`Settings::release_speed`].
     pub fn reynolds(&self) -> f64 {
         self.reynolds
+    }
+
+    /// Mass of body and fluid together, body frame, about the centre of mass: what an impulse and its moment divide by
+    /// to become a change of velocity and spin. Translation first: kg, kg m, kg m^2.
+    pub fn total_mass(&self) -> &Mat6 {
+        &self.equations.kirchhoff.total
+    }
+
+    /// Inverse of [`Stepper::total_mass`].
+    ///
+    /// ```
+    /// use langevin_rigid::{Body, Fluid, Input, Settings, State, Stepper, Wrench};
+    /// let ball = Body::sphere(0.01, 500.0)?;
+    /// let stepper = Stepper::new(&ball, &Fluid::WATER, None, &Settings::default())?;
+    /// // A neutral ball gains half its volume in water.
+    /// let mass = ball.mass + 0.5 * 998.2 * ball.volume;
+    /// assert!((stepper.inverse_total_mass()[0][0] * mass - 1.0).abs() < 1e-2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn inverse_total_mass(&self) -> &Mat6 {
+        &self.equations.kirchhoff.inverse
     }
 
     /// The longest step (s) that a body in this state takes whole in steady fluid; a longer one is taken in parts.

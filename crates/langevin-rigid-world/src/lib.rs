@@ -1,0 +1,1 @@
+//! World of Langevin Rigid: what immersed bodies meet besides their fluid.
