@@ -1,0 +1,120 @@
+//! One convex hull: its corners for distances, its faces for the area of a contact.
+
+use langevin_rigid::linalg::Vec3;
+use parry3d_f64::math::Vector;
+use parry3d_f64::shape::{ConvexPolyhedron, SupportMap};
+
+use super::ShapeError;
+
+/// Corners that stand for the outline of a face where it is cut with another's: a coin needs no more.
+const OUTLINE: usize = 12;
+
+/// A convex polyhedron.
+#[derive(Debug, Clone)]
+pub(crate) struct Hull {
+    /// Its corners (m).
+    pub(crate) points: Vec<Vector>,
+    faces: Vec<Face>,
+}
+
+/// A flat face.
+#[derive(Debug, Clone)]
+pub(crate) struct Face {
+    /// Outwards.
+    pub(crate) normal: Vector,
+    /// Some of its corners, counter-clockwise seen from outside (m).
+    pub(crate) outline: Vec<Vector>,
+}
+
+impl Hull {
+    pub(super) fn new(points: &[Vec3]) -> Result<Self, ShapeError> {
+        if points.iter().flatten().any(|x| !x.is_finite()) {
+            return Err(ShapeError::NotFinite);
+        }
+        let given: Vec<Vector> = points.iter().copied().map(Vector::from).collect();
+        let size = given.iter().map(|p| p.length()).fold(0.0, f64::max);
+        let flat = || ShapeError::Flat(points.len());
+        if size == 0.0 {
+            return Err(flat());
+        }
+        // In units of its own size, as the tolerances of the library are absolute.
+        let unit: Vec<Vector> = given.iter().map(|p| *p / size).collect();
+        let polyhedron = ConvexPolyhedron::from_convex_hull(&unit).ok_or_else(flat)?;
+        let corners = polyhedron.points();
+        let faces = polyhedron.faces().iter().map(|face| {
+            let first = face.first_vertex_or_edge as usize;
+            let last = first + face.num_vertices_or_edges as usize;
+            let around = &polyhedron.vertices_adj_to_face()[first..last];
+            let all: Vec<Vector> = around.iter().map(|v| corners[*v as usize] * size).collect();
+            Face {
+                normal: face.normal,
+                outline: outline(&all),
+            }
+        });
+        Ok(Self {
+            points: corners.iter().map(|p| *p * size).collect(),
+            faces: faces.collect(),
+        })
+    }
+
+    /// A triangle, with its front as the only face.
+    pub(crate) fn of_triangle(corners: [Vector; 3], normal: Vector) -> Self {
+        Self {
+            points: corners.to_vec(),
+            faces: vec![Face {
+                normal,
+                outline: corners.to_vec(),
+            }],
+        }
+    }
+
+    pub(super) fn scaled(&self, factor: f64) -> Self {
+        let face = |face: &Face| Face {
+            normal: face.normal,
+            outline: face.outline.iter().map(|p| *p * factor).collect(),
+        };
+        Self {
+            points: self.points.iter().map(|p| *p * factor).collect(),
+            faces: self.faces.iter().map(face).collect(),
+        }
+    }
+
+    /// The face that looks most along `direction`.
+    pub(crate) fn face_towards(&self, direction: Vector) -> &Face {
+        let mut best = &self.faces[0];
+        let mut most = f64::NEG_INFINITY;
+        for face in &self.faces {
+            let along = face.normal.dot(direction);
+            if along > most {
+                (best, most) = (face, along);
+            }
+        }
+        best
+    }
+}
+
+/// Corners evenly among all of a face's.
+fn outline(all: &[Vector]) -> Vec<Vector> {
+    let kept = all.len().min(OUTLINE);
+    (0..kept).map(|i| all[i * all.len() / kept]).collect()
+}
+
+/// Points in another unit of length.
+pub(crate) struct Scaled<'a> {
+    pub(crate) points: &'a [Vector],
+    pub(crate) factor: f64,
+}
+
+impl SupportMap for Scaled<'_> {
+    fn local_support_point(&self, direction: Vector) -> Vector {
+        let mut best = self.points[0];
+        let mut most = f64::NEG_INFINITY;
+        for point in self.points {
+            let along = point.dot(direction);
+            if along > most {
+                (best, most) = (*point, along);
+            }
+        }
+        best * self.factor
+    }
+}
