@@ -1,1 +1,3 @@
 //! World of Langevin Rigid: what immersed bodies meet besides their fluid.
+
+pub mod water;
