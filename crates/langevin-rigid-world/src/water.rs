@@ -21,6 +21,7 @@
 
 mod hull;
 mod immersion;
+mod radiation;
 mod rungs;
 mod sea;
 mod surface;

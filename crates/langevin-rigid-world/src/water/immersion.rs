@@ -3,11 +3,12 @@
 use langevin_rigid::linalg::vector::{add, cross, norm, scale, sub};
 use langevin_rigid::linalg::{Mat6, Quat, Vec3, quat_from_rotation_vector, rotate, rotate_back};
 use langevin_rigid::{
-    Body, Flow, Fluid, Input, NoiseStream, Settings, SetupError, State, StepError, Stepper,
+    Body, Flow, Fluid, Input, Model, NoiseStream, Settings, SetupError, State, StepError, Stepper,
     TurbulenceHistory,
 };
 
 use super::hull::{FloatingHull, HullError};
+use super::radiation::heave_damping;
 use super::rungs::{Rungs, relative, set_relative, times};
 use super::surface::{Plane, WaterSurface};
 
@@ -25,8 +26,10 @@ use super::surface::{Plane, WaterSurface};
 ///
 /// Everything else is that of a body in a mixture of the fluids by volume: density and dynamic viscosity are means, and so
 /// is the momentum of the undisturbed fluid. The added mass is thus in proportion to the share, M(s) = M_body + rho(s) A.
-/// That is an approximation: the true one depends on the pose, and on the frequency where a body makes waves. Bodies
-/// make none here, so these take no energy out of a body that bobs.
+/// That is an approximation: the true one depends on the pose, and on the frequency where a body makes waves. Of these
+/// waves only what they take out of heave is here, after Haskind and Hulme, so that a float comes to rest as it does in
+/// life; the waves themselves are not, nor those of a body that rolls. [`Model::Kirchhoff`], which has no resistances, has not
+/// this one either.
 ///
 /// Where the share grows in a step, the momentum M(s) xi of body and moved fluid relative to the water stays (von Karman, The
 /// impact on seaplane floats during landing, NACA TN 321, 1929): the body is slowed down to xi' = M(s')^-1 M(s) xi. Where
@@ -42,6 +45,8 @@ pub struct Immersion {
     air: Fluid,
     water: Fluid,
     gravity: Vec3,
+    /// Whether the waves that it makes resist it.
+    radiates: bool,
 }
 
 /// Why a body cannot be made ready to step between two fluids.
@@ -124,6 +129,7 @@ impl Immersion {
             air: *air.0,
             water: *water.0,
             gravity: settings.gravity,
+            radiates: settings.model != Model::Kirchhoff,
         })
     }
 
@@ -269,7 +275,35 @@ impl Immersion {
             let slowed = times(&self.inverse_total_mass(wet.share), &momentum);
             set_relative(&mut after, &slowed, water);
         }
+        if self.radiates && wet.waterplane > 0.0 {
+            self.radiate(&mut after, &wet, h, surface);
+        }
         Ok((after, wet))
+    }
+
+    /// Takes out of the velocity what the waves of a bobbing body take in `h` (s): an impulse at the centre of the submerged
+    /// part against its vertical velocity relative to the water.
+    fn radiate(&self, body: &mut State, wet: &Wetting, h: f64, surface: &WaterSurface) {
+        let volume = wet.share * self.hull.volume();
+        let arm = rotate_back(body.orientation, scale(1.0 / volume, wet.in_water));
+        let up = rotate_back(body.orientation, [0.0, 1.0, 0.0]);
+        let [a, b, c] = cross(arm, up);
+        let heave = [up[0], up[1], up[2], a, b, c];
+        let answer = times(&self.inverse_total_mass(wet.share), &heave);
+        let inner = |a: &[f64; 6], b: &[f64; 6]| -> f64 { (0..6).map(|i| a[i] * b[i]).sum() };
+        let mobility = inner(&heave, &answer);
+        // Of the waves that it makes if it bobs freely: omega^2 / g.
+        let number = self.water.density * wet.waterplane * mobility;
+        let frequency = (number * norm(self.gravity)).sqrt();
+        let damping = heave_damping(number, wet.waterplane, volume);
+        let rate = self.water.density * frequency * damping * mobility;
+        let water = surface.flow(body.position, body.time).velocity;
+        let mut velocity = relative(body, water);
+        let lost = -libm::expm1(-rate * h) * inner(&heave, &velocity) / mobility;
+        for i in 0..6 {
+            velocity[i] -= lost * answer[i];
+        }
+        set_relative(body, &velocity, water);
     }
 
     /// A part of a step partly in the water, as `wet` says.
