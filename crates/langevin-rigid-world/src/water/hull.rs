@@ -88,7 +88,7 @@ impl FloatingHull {
         };
         let sum = hull.sum_below(body.centre_of_buoyancy, |_| -1.0);
         let ratio = sum.volume / body.volume;
-        if !((ratio - 1.0).abs() <= COARSE) {
+        if !(1.0 - COARSE..=1.0 + COARSE).contains(&ratio) {
             return Err(HullError::Volume {
                 enclosed: sum.volume,
                 volume: body.volume,

@@ -45,6 +45,10 @@ pub struct Immersion {
     air: Fluid,
     water: Fluid,
     gravity: Vec3,
+    /// Bounds on the acceleration by weight and buoyancy in air and in water (m/s^2).
+    gains: [f64; 2],
+    /// How far a part of a step may move the body relative to the surface (m).
+    stride: f64,
     /// Whether the waves that it makes resist it.
     radiates: bool,
 }
@@ -82,9 +86,11 @@ pub enum ImmersionError {
 }
 
 /// Parts that a step is taken in at most.
-const MOST_PARTS: u32 = 64;
-/// How far a part may move the body relative to the surface, in radii of the body.
+const MOST_PARTS: u32 = 256;
+/// How far a part may move the body relative to the surface, in radii of the body; times [`LIGHT`] times its density over
+/// that of the water where this is below one, as water weighs much against such a body.
 const STRIDE: f64 = 0.1;
+const LIGHT: f64 = 5.0;
 
 /// How a body lies in the water.
 #[derive(Debug, Clone, Copy)]
@@ -123,9 +129,17 @@ impl Immersion {
                 air: air.0.density,
             });
         }
+        let hull = FloatingHull::new(body)?;
+        let ratio = body.density() / water.0.density;
+        let gain = |stepper: &Stepper, fluid: &Fluid| {
+            let net = (body.mass - fluid.density * body.volume).abs();
+            -y * net * trace(stepper.inverse_total_mass(), 0)
+        };
         Ok(Self {
+            gains: [gain(rungs.air(), air.0), gain(rungs.water(), water.0)],
             rungs,
-            hull: FloatingHull::new(body)?,
+            stride: STRIDE * hull.radius() * (LIGHT * ratio).min(1.0),
+            hull,
             air: *air.0,
             water: *water.0,
             gravity: settings.gravity,
@@ -170,7 +184,7 @@ impl Immersion {
     /// `input` is as for [`Stepper::step`] in the upper fluid: its flow is that of the air, on top of the air's
     /// [`Fluid::velocity`]; that of the water is the surface's. Wrench and noise are the body's wherever it is.
     ///
-    /// Away from the surface this is one step of a [`Stepper`]. At the surface it is taken in up to 64 parts, each of which
+    /// Away from the surface this is one step of a [`Stepper`]. At the surface it is taken in up to 256 parts, each of which
     /// cuts the hull twice and steps two steppers.
     ///
     /// # Errors
@@ -219,21 +233,25 @@ impl Immersion {
         let velocity = body.world_velocity();
         let spin = norm(body.angular_velocity);
         let clear = (body.position[1] - surface.level()).abs() - surface.reach() - radius;
-        if clear > norm(velocity) * left {
+        let gain = if wet.share == 0.0 {
+            self.gains[0]
+        } else {
+            self.gains[1]
+        };
+        if clear > (norm(velocity) + 0.5 * gain * left) * left {
             return left;
         }
         let water = surface.flow(body.position, body.time).velocity;
         let speed = norm(sub(velocity, water)) + spin * radius;
         // At its speed, and from rest at about the acceleration of gravity.
-        let stride = STRIDE * radius;
+        let stride = self.stride;
         let mut most = (stride / speed).min((stride / norm(self.gravity)).sqrt());
         if wet.waterplane > 0.0 {
             // Bound on the square of the frequencies at which it bobs, rolls and pitches.
             let inverse = self.inverse_total_mass(wet.share);
-            let trace = |first: usize| -> f64 { (first..first + 3).map(|i| inverse[i][i]).sum() };
             let volume = wet.share * self.hull.volume();
             let turning = radius * (wet.waterplane * radius + volume);
-            let stiffness = wet.waterplane * trace(0) + turning * trace(3);
+            let stiffness = wet.waterplane * trace(&inverse, 0) + turning * trace(&inverse, 3);
             let weight = self.water.density * norm(self.gravity);
             most = most.min(1.0 / (weight * stiffness).sqrt());
         }
@@ -399,6 +417,11 @@ fn mean(a: &Flow, of_a: f64, b: &Flow, of_b: f64) -> Flow {
         gradient: std::array::from_fn(|i| mix(a.gradient[i], b.gradient[i])),
         acceleration: mix(a.acceleration, b.acceleration),
     }
+}
+
+/// Sum of the diagonal of the linear (from 0) or the angular block (from 3): no less than its largest eigenvalue.
+fn trace(m: &Mat6, from: usize) -> f64 {
+    (from..from + 3).map(|i| m[i][i]).sum()
 }
 
 /// The noise of a part of a step: the first has that of the step.

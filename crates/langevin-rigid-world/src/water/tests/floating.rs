@@ -191,7 +191,7 @@ fn heave_and_roll_have_their_periods() {
     heaved.position[1] += 1e-4;
     let found = measured(heaved, &|state| state.position[1] - afloat.position[1]);
     let wanted = TAU * (mass[1][1] / (stiffness * a * c)).sqrt();
-    assert!((found / wanted - 1.0).abs() < 2e-3, "{found} {wanted}");
+    assert!((found / wanted - 1.0).abs() < 1e-4, "{found} {wanted}");
     // About z.
     let mut heeled = afloat;
     heeled.orientation = quat_from_rotation_vector([0.0, 0.0, 2e-3]);
@@ -199,7 +199,7 @@ fn heave_and_roll_have_their_periods() {
     let volume = a * c * draught;
     let metacentric = 0.5 * draught + c * a * a * a / (12.0 * volume) - 0.5 * b;
     let wanted = TAU * (mass[5][5] / (stiffness * volume * metacentric)).sqrt();
-    assert!((found / wanted - 1.0).abs() < 5e-3, "{found} {wanted}");
+    assert!((found / wanted - 1.0).abs() < 1e-4, "{found} {wanted}");
 }
 
 #[test]
@@ -247,23 +247,25 @@ fn a_ball_let_go_under_water_comes_up_and_floats() {
     assert!(norm([x, 0.0, z]) < 0.02, "{x} {z}");
 }
 
-/// Without drag, bodies that fall through the surface at random lose energy to the water's entry and exit alone. What a step
-/// gains is the error of the leapfrog, of second order while steps are not in parts.
+/// Without drag, bodies that fall through the surface at random lose energy to the water's entry and exit alone, however light
+/// or heavy they are and however long the steps.
 #[test]
 fn no_fall_through_the_surface_gains_energy() {
     let bodies = [
         Body::ellipsoid([0.05, 0.02, 0.03], 500.0).unwrap(),
         Body::sphere(0.03, 30.0).unwrap(),
+        Body::sphere(0.005, 3.0).unwrap(),
         Body::plate(0.1, 0.06, 0.004, 700.0).unwrap(),
+        Body::plate(0.1, 0.06, 3e-4, 4.0).unwrap(),
         Body::cuboid([0.1; 3], 300.0).unwrap(),
         Body::cylinder(0.01, 0.15, 900.0).unwrap(),
         Body::disc(0.05, 0.002, 1200.0).unwrap(),
-        Body::cuboid([0.1, 0.05, 0.1], 10.0).unwrap(),
+        Body::cuboid([0.1, 0.05, 0.1], 8000.0).unwrap(),
     ];
     let water = calm();
     for (number, body) in bodies.iter().enumerate() {
         let immersion = immersion(body, Model::Kirchhoff);
-        for (dt, tolerated) in [(5e-4, 1e-5), (2e-3, 3e-5), (8e-3, 1e-4), (1.0 / 30.0, 1e-4)] {
+        for dt in [1e-3, 4e-3, 1.0 / 60.0, 0.5] {
             for fall in 0..3 {
                 let stream = NoiseStream {
                     seed: 5,
@@ -279,20 +281,21 @@ fn no_fall_through_the_surface_gains_energy() {
                 state.set_world_velocities([0.5 * z[3], z[4] - 1.0, 0.5 * z[5]], spin);
                 let start = energy(&immersion, body, &state);
                 let mut least = start;
-                while state.time < 4.0 {
+                // Deep down the integrator of the water is at work alone.
+                while state.time < 4.0 && state.position[1] > -0.5 {
                     immersion
                         .step(&mut state, dt, &Input::default(), &water)
                         .unwrap();
                     let now = energy(&immersion, body, &state);
+                    // What a leapfrog's energy goes up and down by.
+                    let gained = now - least;
                     assert!(
-                        now - least < tolerated * start,
-                        "body {number}, fall {fall}, step {dt}: {} of {start} J at {} s",
-                        now - least,
+                        gained < 2e-5 * start,
+                        "body {number}, fall {fall}, step {dt}: {gained} of {start} J at {} s",
                         state.time
                     );
                     least = least.min(now);
                 }
-                assert!(least < 0.95 * start);
             }
         }
     }
