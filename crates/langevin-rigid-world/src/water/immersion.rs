@@ -21,23 +21,24 @@ use super::surface::{Plane, WaterSurface};
 ///
 /// The share s of the volume that is in the water, and its centroid, are exact for the polyhedron of the body and the plane
 /// that touches the surface over the centre of mass. So are the forces of the undisturbed fluids on the two parts: buoyancy,
-/// and where the fluid accelerates, the Froude-Krylov force (Newman, Marine Hydrodynamics, 1977, sections 4.18 and 6.17).
-/// They are taken in the middle of the step, so that a body that bobs gains no energy from steps.
+/// and where the fluid accelerates, the Froude-Krylov force (Newman, Marine Hydrodynamics, 1977, chapters 4 and 6). They are
+/// taken in the middle of the step, which makes it a leapfrog: a body that bobs gains no energy from steps.
 ///
 /// Everything else is that of a body in a mixture of the fluids by volume: density and dynamic viscosity are means, and so
 /// is the momentum of the undisturbed fluid. The added mass is thus in proportion to the share, M(s) = M_body + rho(s) A.
-/// That is an approximation: the true one depends on the pose, and on the frequency where a body makes waves. Of these
-/// waves only what they take out of heave is here, after Haskind and Hulme, so that a float comes to rest as it does in
-/// life; the waves themselves are not, nor those of a body that rolls. [`Model::Kirchhoff`], which has no resistances, has not
-/// this one either.
+/// That is an approximation: the true one depends on the pose, and on the frequency where a body makes waves. Drag is that of
+/// the whole body in the mixture. Of the waves that a body makes only what they take out of heave is here, after Haskind
+/// and Hulme, so that a float comes to rest as it does in life; the waves themselves are not, nor those of a body that rolls.
+/// [`Model::Kirchhoff`], which has no resistances, has not this one either. The flow in waves is that at the centre of mass,
+/// and the surface is plane as far as the body reaches: waves should be long beside it.
 ///
 /// Where the share grows in a step, the momentum M(s) xi of body and moved fluid relative to the water stays (von Karman, The
 /// impact on seaplane floats during landing, NACA TN 321, 1929): the body is slowed down to xi' = M(s')^-1 M(s) xi. Where
 /// it falls, the velocity stays and the water that is left behind takes its momentum along. As M grows with s, neither
 /// adds energy: 1/2 p . M^-1 p falls with M at the same p, 1/2 xi . M xi grows with M at the same xi.
 ///
-/// A step near the surface is taken in parts, such that none takes the body through it by more than a fraction of its size.
-/// What this costs is seen in [`Immersion::step`].
+/// A step near the surface is taken in parts, such that none takes the body through it by more than a fraction of its size,
+/// the smaller the lighter it is, or turns the phase of its bobbing by more than a radian.
 #[derive(Debug, Clone)]
 pub struct Immersion {
     rungs: Rungs,
@@ -105,7 +106,8 @@ struct Wetting {
 
 impl Immersion {
     /// Makes `body` ready to step between `air`, the upper fluid, and `water`, the lower one, each with the history of the
-    /// turbulence in it. In between the turbulence is that of the water, or of the air if the water has no history.
+    /// turbulence in it. In between the turbulence is that of the water, which outweighs the air's, or of the air if the water
+    /// has no history.
     ///
     /// # Errors
     /// [`ImmersionError`]: the surface must be closed, gravity along -y, the water denser and without a velocity of its own.
@@ -185,7 +187,7 @@ impl Immersion {
     /// [`Fluid::velocity`]; that of the water is the surface's. Wrench and noise are the body's wherever it is.
     ///
     /// Away from the surface this is one step of a [`Stepper`]. At the surface it is taken in up to 256 parts, each of which
-    /// cuts the hull twice and steps two steppers.
+    /// cuts the hull twice, steps two steppers and has noise of its own.
     ///
     /// # Errors
     /// [`StepError`], with `state` left as it was before the step.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 /// Heave damping per density and frequency (m^3) of a body that makes waves of the wave number `number` (1/m).
 ///
 /// A body small beside the waves moves as much water up and down as its waterplane sweeps, whatever its form: the damping is
-/// 1/2 rho omega k A^2, by Haskind's relation (Newman, Marine Hydrodynamics, 1977, sections 6.17 and 6.18). Shorter waves
+/// 1/2 rho omega k A^2, by Haskind's relation (Newman, Marine Hydrodynamics, 1977, chapter 6). Shorter waves
 /// are made less well, as the water is pushed some way below the surface: e^(-2 k h) where h, the mean draught and half the
 /// radius of the waterplane, is such that the damping of a hemisphere is that of Hulme (J. Fluid Mech. 121, 1982) within
 /// a tenth up to k times radius of one, where it bobs by itself. For other bodies this is an estimate.

@@ -21,7 +21,7 @@ pub struct Wave {
 
 /// The surface of deep water, calm or under a sum of waves, and the motion of the water under it.
 ///
-/// Linear theory of waves in deep water (Airy 1845; Newman, Marine Hydrodynamics, 1977, section 6.2): a wave of length
+/// Linear theory of waves in deep water (Airy 1845; Newman, Marine Hydrodynamics, 1977, chapter 6): a wave of length
 /// lambda has the wave number k = 2 pi / lambda and the frequency omega = (g k)^(1/2). It is as good as the waves are flat,
 /// amplitude times k well below one, and the water is deep, half a wavelength or more. Bodies do not disturb it.
 ///
@@ -105,7 +105,7 @@ impl WaterSurface {
     }
 
     /// The sum of `waves` about a still surface at the height `level` (world y, m), under a gravity of this
-    /// magnitude (m/s^2).
+    /// magnitude (m/s^2), that of the [`Settings`](langevin_rigid::Settings) of the bodies in it.
     ///
     /// # Errors
     /// [`WaterError`], which names the number that is out of range.

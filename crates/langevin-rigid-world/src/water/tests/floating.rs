@@ -500,6 +500,19 @@ fn what_cannot_be_stepped_between_fluids_is_refused() {
     };
     let error = new(&body, Fluid::AIR, Fluid::WATER, &history);
     assert!(matches!(error, ImmersionError::Setup(_)));
+    let turbulence = langevin_rigid::TurbulenceHistory {
+        interval: 0.1,
+        inflow_speed: 0.5,
+        length: 0.1,
+        k: vec![0.1, 0.05],
+        epsilon: vec![0.2, 0.1],
+    };
+    let both = |air, water| {
+        let (air, water) = ((&Fluid::AIR, air), (&Fluid::WATER, water));
+        Immersion::new(&body, air, water, &history)
+    };
+    assert!(both(Some(&turbulence), Some(&turbulence)).is_ok());
+    assert!(both(Some(&turbulence), None).is_err());
     let mut bare = body.clone();
     bare.surface = Default::default();
     let error = new(&bare, Fluid::AIR, Fluid::WATER, &usual);
