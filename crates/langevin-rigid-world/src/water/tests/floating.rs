@@ -202,6 +202,46 @@ fn heave_and_roll_have_their_periods() {
     assert!((found / wanted - 1.0).abs() < 1e-4, "{found} {wanted}");
 }
 
+/// A ball half in the water loses heave to its waves as a hemisphere does: a tenth of critical damping.
+#[test]
+fn heave_ends_as_by_the_waves_that_it_makes() {
+    let r = 0.05;
+    let body = Body::sphere(r, 0.5 * (Fluid::WATER.density + Fluid::AIR.density)).unwrap();
+    let immersion = immersion(&body, Model::Separated);
+    let water = calm();
+    let mass = immersion.total_mass(0.5)[1][1];
+    let number = Fluid::WATER.density * PI * r * r / mass;
+    assert!((number * r - 1.0).abs() < 0.01);
+    let frequency = (G * number).sqrt();
+    // Hulme's 0.2484 is what the fit has to a tenth.
+    let displaced = 2.0 / 3.0 * PI * r * r * r * Fluid::WATER.density;
+    let damping = 0.2484 * displaced * frequency;
+    let mut state = State {
+        position: [0.0, 2e-4, 0.0],
+        ..State::default()
+    };
+    let mut peaks = Vec::new();
+    let mut before = state.position[1];
+    let mut rising = false;
+    while state.time < 2.0 {
+        immersion
+            .step(&mut state, 1e-3, &Input::default(), &water)
+            .unwrap();
+        let y = state.position[1];
+        if rising && y < before {
+            peaks.push((state.time, before));
+        }
+        (rising, before) = (y > before, y);
+    }
+    let [(start, from), (end, to)] = [peaks[0], peaks[2]];
+    let rate = 2.0 * libm::log(from / to) / (end - start);
+    assert!(
+        (rate / (damping / mass) - 1.0).abs() < 0.12,
+        "{rate} {}",
+        damping / mass
+    );
+}
+
 #[test]
 fn a_tall_block_lies_down() {
     let body = Body::cuboid([0.08, 0.3, 0.1], 500.0).unwrap();
