@@ -12,3 +12,4 @@ pub use material::{Material, MaterialError};
 pub use obstacle::{Obstacle, ObstacleError};
 pub use shape::{Shape, ShapeError};
 pub use world::{Kind, Overlap, World, WorldError};
+pub mod water;

@@ -258,7 +258,7 @@ fn invert_lower<const N: usize>(l: &[[f64; N]; N]) -> [[f64; N]; N] {
 }
 
 /// Inverse of a symmetric positive definite matrix; `None` if it is not.
-pub(crate) fn invert_spd<const N: usize>(m: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+pub fn invert_spd<const N: usize>(m: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let inverse = invert_lower(&cholesky(m)?);
     Some(product(&transpose(&inverse), &inverse))
 }
