@@ -55,6 +55,7 @@ fn main() {
                 w.step(dt).unwrap();
                 busy += t.elapsed().as_secs_f64();
                 step+=1;
+                if std::env::var("WATCH").is_ok() { if let Some(o)=(0..w.len()).filter_map(|i| w.overlap(i)).find(|o| o.depth>2e-4) { let s=w.state(o.body); println!("t {:.3} {o} v {:?} w {:?} q {:?}", w.time(), s.world_velocity(), s.world_angular_velocity(), s.orientation); if let Some(k)=o.other.strip_prefix("body ") { let s=w.state(k.parse().unwrap()); println!("   {:?} {:?} {:?} asleep {}", s.world_velocity(), s.world_angular_velocity(), s.orientation, w.is_asleep(k.parse().unwrap())); } } }
                 if n==1 && w.time()>3.0 && w.time()<3.06 { let s=w.state(0); let v=s.world_velocity(); let o=s.world_angular_velocity(); println!("t {:.3} y {:.6} v {:.5} {:.5} {:.5} w {:.4} {:.4} {:.4} f {:.2?}", w.time(), s.position[1], v[0],v[1],v[2],o[0],o[1],o[2], s.fluctuation); }
                 if step % (1.0/dt) as usize == 0 {
                     let top = (0..w.len()).map(|i| w.state(i).position[1]).filter(|y| *y<0.5).fold(0.0,f64::max);

@@ -140,6 +140,8 @@ struct Held {
     at: Vector,
     /// On b, world frame (N s).
     impulse: Vector,
+    /// From a to b, world frame.
+    normal: Vector,
 }
 
 /// A patch between two parts.
@@ -329,7 +331,7 @@ impl World {
                     b: b as u32,
                     part_b,
                 };
-                let patch = narrow::hulls(hull_a, hull_b, reach + skin);
+                let patch = narrow::hulls(hull_a, hull_b, reach + skin, self.normal_before(key));
                 met.extend(patch.map(|patch| Met { key, patch, skin }));
             }
         }
@@ -347,19 +349,19 @@ impl World {
                 continue;
             }
             for (part_b, hull) in parts(member) {
-                let mut add = |part_a: u32, patch: Option<Patch>| {
-                    let key = Key {
-                        obstacle: Some(number as u32),
-                        a: 0,
-                        part_a,
-                        b: body as u32,
-                        part_b,
-                    };
+                let key = |part_a: u32| Key {
+                    obstacle: Some(number as u32),
+                    a: 0,
+                    part_a,
+                    b: body as u32,
+                    part_b,
+                };
+                let mut add = |key: Key, patch: Option<Patch>| {
                     met.extend(patch.map(|patch| Met { key, patch, skin }));
                 };
                 match &obstacle.geometry {
                     Geometry::HalfSpace { normal, offset } => {
-                        add(0, narrow::half_space(*normal, *offset, hull, reach));
+                        add(key(0), narrow::half_space(*normal, *offset, hull, reach));
                     }
                     Geometry::Shape { shape, pose, .. } => {
                         for (part, of_obstacle) in shape.hulls().iter().enumerate() {
@@ -368,7 +370,9 @@ impl World {
                                 pose: *pose,
                                 size: shape.radius(),
                             };
-                            add(part as u32, narrow::hulls(placed, hull, reach));
+                            let key = key(part as u32);
+                            let before = self.normal_before(key);
+                            add(key, narrow::hulls(placed, hull, reach, before));
                         }
                     }
                     Geometry::Mesh(mesh) => {
@@ -376,7 +380,7 @@ impl World {
                         near.sort_unstable();
                         for index in near {
                             let triangle = &mesh.triangles[index as usize];
-                            add(index, narrow::triangle(triangle, hull, reach));
+                            add(key(index), narrow::triangle(triangle, hull, reach));
                         }
                     }
                 }
@@ -413,6 +417,13 @@ impl World {
             self.wake(body);
         }
         !hit.is_empty()
+    }
+
+    /// The normal at which two touched in the last step.
+    fn normal_before(&self, key: Key) -> Option<Vector> {
+        let from = self.held.partition_point(|held| held.key < key);
+        let held = self.held.get(from).filter(|held| held.key == key);
+        held.map(|held| held.normal)
     }
 
     /// The impulse of the last step at a point (N s), without its direction.
@@ -543,6 +554,7 @@ impl World {
                     key,
                     at,
                     impulse: contact.impulse,
+                    normal: contact.normal,
                 });
             }
         }

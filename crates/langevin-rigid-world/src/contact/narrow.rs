@@ -4,6 +4,7 @@ use arrayvec::ArrayVec;
 use parry3d_f64::math::{Pose, Vec2, Vector};
 use parry3d_f64::query::details::contact_support_map_support_map_with_params;
 use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
+use parry3d_f64::shape::SupportMap;
 
 use super::overlap::overlap;
 use super::{MOST_POINTS, Patch, Point};
@@ -16,6 +17,12 @@ const BETWEEN_FACES: usize = 4;
 /// A face lies along a contact if its normal is within this cosine of the contact's.
 const ALONG: f64 = 0.5;
 
+/// Bodies that overlap keep their normal unless it stays within this cosine of itself.
+const SAME: f64 = 0.5;
+
+/// Differences of distances that are rounding, in sizes of a body.
+const ROUNDING: f64 = 1e-9;
+
 /// A hull and where it is.
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'a> {
@@ -25,10 +32,39 @@ pub(crate) struct Placed<'a> {
     pub(crate) size: f64,
 }
 
-/// Two hulls closer than `reach` (m).
-pub(crate) fn hulls(a: Placed<'_>, b: Placed<'_>, reach: f64) -> Option<Patch> {
-    let nearest = nearest(a, b, reach)?;
+/// Two hulls closer than `reach` (m). `before` is the normal of the step before, if they touched.
+pub(crate) fn hulls(
+    a: Placed<'_>,
+    b: Placed<'_>,
+    reach: f64,
+    before: Option<Vector>,
+) -> Option<Patch> {
+    let found = nearest(a, b, reach)?;
+    let nearest = refined(a, b, found, before);
     Some(patch(a, b, nearest, reach))
+}
+
+/// The nearest points along the normal that sets the hulls farthest apart: the one found, or that of a face at it.
+///
+/// Where hulls all but touch, the direction between their nearest points is lost in rounding; those of faces are exact.
+fn refined(a: Placed<'_>, b: Placed<'_>, found: Nearest, before: Option<Vector>) -> Nearest {
+    let normal = found.normal;
+    let of_a = a.pose.rotation * a.hull.face_towards(a.pose.rotation.inverse() * normal).normal;
+    let of_b = b.pose.rotation * b.hull.face_towards(b.pose.rotation.inverse() * -normal).normal;
+    // The way out of a thin body must not lead through it.
+    let before = before.filter(|_| found.gap < 0.0);
+    let same = |normal: &Vector| before.is_none_or(|before| normal.dot(before) > SAME);
+    let candidates = [Some(normal), Some(of_a), Some(-of_b), before];
+    let widest = candidates
+        .into_iter()
+        .flatten()
+        .filter(same)
+        .map(|normal| along(a, b, normal))
+        .reduce(|best, next| if next.gap > best.gap + ROUNDING * b.size { next } else { best });
+    match widest {
+        Some(widest) if widest.gap < found.gap || widest.normal != normal => widest,
+        _ => found,
+    }
 }
 
 /// A triangle of an obstacle and a hull closer than `reach` (m).
@@ -134,6 +170,25 @@ fn nearest(a: Placed<'_>, b: Placed<'_>, reach: f64) -> Option<Nearest> {
     })
 }
 
+/// The points that are deepest in each other along `normal`.
+fn along(a: Placed<'_>, b: Placed<'_>, normal: Vector) -> Nearest {
+    let farthest = |placed: Placed<'_>, direction: Vector| {
+        let towards = placed.pose.rotation.inverse() * direction;
+        let points = Scaled {
+            points: &placed.hull.points,
+            factor: 1.0,
+        };
+        placed.pose * points.local_support_point(towards)
+    };
+    let (on_a, on_b) = (farthest(a, normal), farthest(b, -normal));
+    Nearest {
+        normal,
+        on_a,
+        on_b,
+        gap: (on_b - on_a).dot(normal),
+    }
+}
+
 /// The points around the nearest ones.
 fn patch(a: Placed<'_>, b: Placed<'_>, nearest: Nearest, reach: f64) -> Patch {
     let Nearest {
@@ -201,17 +256,17 @@ fn spread(points: &[Point], most: usize) -> ArrayVec<Point, MOST_POINTS> {
     let mut next = first;
     while chosen.len() < most {
         chosen.push(points[next]);
-        let mut farthest = next;
-        for (i, point) in points.iter().enumerate() {
-            away[i] = away[i].min(point.on_b.distance_squared(points[next].on_b));
-            if away[i] > away[farthest] {
-                farthest = i;
+        for (away, point) in away.iter_mut().zip(points) {
+            *away = away.min(point.on_b.distance_squared(points[next].on_b));
+        }
+        for (i, far) in away.iter().enumerate() {
+            if *far > away[next] {
+                next = i;
             }
         }
-        if away[farthest] <= 0.0 {
+        if away[next] <= 0.0 {
             break;
         }
-        next = farthest;
     }
     chosen
 }
@@ -230,7 +285,7 @@ mod tests {
             size: shape.radius(),
         };
         for turn in [0.0, 0.3, 1.0] {
-            let patch = hulls(placed(0.0, 0.0), placed(0.0301, turn), 1e-3).unwrap();
+            let patch = hulls(placed(0.0, 0.0), placed(0.0301, turn), 1e-3, None).unwrap();
             assert!((patch.normal - Vector::Y).length() < 1e-9, "{}", patch.normal);
             assert_eq!(patch.points.len(), 4);
             for point in &patch.points {

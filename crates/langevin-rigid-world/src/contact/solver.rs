@@ -32,6 +32,21 @@ impl Twist {
         }
     }
 
+    /// Where a point at `arm` from the centre goes.
+    fn displacement(&self, arm: Vector) -> Vector {
+        let turn = self.angular;
+        let angle = turn.length_squared();
+        let across = turn.cross(arm);
+        // Rodrigues's formula, and its first terms where they will do.
+        let (first, second) = if angle < 1e-4 {
+            (1.0 - angle / 6.0, 0.5 - angle / 24.0)
+        } else {
+            let length = angle.sqrt();
+            (libm::sin(length) / length, (1.0 - libm::cos(length)) / angle)
+        };
+        self.linear + across * first + turn.cross(across) * second
+    }
+
     fn add_scaled(&mut self, factor: f64, other: &Self) {
         self.linear += other.linear * factor;
         self.angular += other.angular * factor;
@@ -351,8 +366,12 @@ fn mend(contacts: &[Contact], rows: &[[Row; 3]], movers: &mut [Mover], rules: &R
     for _ in 0..MENDING_SWEEPS {
         let mut deepest: f64 = 0.0;
         for (contact, rows) in contacts.iter().zip(rows) {
+            let part = |mover: Option<usize>, arm: Vector| {
+                mover.map_or(Vector::ZERO, |i| way(&movers[i]).displacement(arm))
+            };
+            let apart = part(contact.b, contact.arm_b) - part(contact.a, contact.arm_a);
             let least = (contact.gap * (1.0 - MENDED)).min(-0.5 * contact.skin);
-            let missing = least - contact.gap - rows[0].speed(contact, movers, way);
+            let missing = least - contact.gap - apart.dot(contact.normal);
             if missing > 0.0 {
                 deepest = deepest.max(missing / contact.skin);
                 rows[0].push(contact, movers, rows[0].mass * missing, |mover| {
