@@ -1,5 +1,6 @@
 //! Motion at frames, and how far what programs make of it strays from the motion itself.
 
+use std::borrow::Borrow;
 use std::fmt;
 
 use langevin_rigid::linalg::vector::{norm, sub};
@@ -31,19 +32,9 @@ const LARGE: Deviation = Deviation {
 };
 
 impl Deviation {
-    /// What to do about an animation of `fps` frames a second that strays too far for a body of some
-    /// `length` (m), if it does.
-    pub fn warning(&self, fps: f64, length: f64) -> Option<String> {
-        let excess =
-            (self.position / (LARGE.position * length)).max(self.rotation / LARGE.rotation);
-        // Both errors go with the square of the time between frames.
-        let enough = fps * excess.sqrt().ceil();
-        (excess > 1.0).then(|| {
-            format!(
-                "at {fps} frames a second the animation strays up to {self} from the trajectory \
-                 between frames: use --fps {enough} or more"
-            )
-        })
+    /// Times that it is what makes the motion of a body of some `length` (m) another one.
+    fn excess(self, length: f64) -> f64 {
+        (self.position / (LARGE.position * length)).max(self.rotation / LARGE.rotation)
     }
 
     fn worse(self, other: Self) -> Self {
@@ -66,6 +57,10 @@ impl fmt::Display for Deviation {
 pub(super) struct Animation {
     /// One for each body.
     pub(super) bodies: Vec<Keyframes>,
+    /// How far it strays from the trajectories it was made of.
+    pub(super) deviation: Deviation,
+    /// The largest [`Deviation::excess`] of a body.
+    excess: f64,
 }
 
 /// One body at the frames until its own end, where it stays.
@@ -85,14 +80,15 @@ pub(super) struct Keyframes {
 
 impl Animation {
     /// The trajectories at `frames`, whose times a file rounds by `rounded_time`.
-    pub(super) fn new(
-        trajectories: &[Trajectory],
+    pub(super) fn new<T: Borrow<Trajectory> + Sync>(
+        trajectories: &[T],
         frames: Frames,
         rounded_time: impl Fn(f64) -> f64 + Sync,
     ) -> Result<Self, ExportError> {
         let bodies: Result<Vec<Keyframes>, ExportError> = trajectories
             .par_iter()
             .map(|trajectory| {
+                let trajectory = trajectory.borrow();
                 let track = Track::new(&trajectory.poses).map_err(|error| ExportError::Track {
                     body: trajectory.body,
                     error,
@@ -110,7 +106,11 @@ impl Animation {
                 Ok(Keyframes::new(trajectory.body, &track, numbers, times))
             })
             .collect();
-        Ok(Self { bodies: bodies? })
+        Ok(Self {
+            bodies: bodies?,
+            deviation: Deviation::default(),
+            excess: 0.0,
+        })
     }
 
     /// The same with each number as a file has it.
@@ -130,13 +130,37 @@ impl Animation {
         self
     }
 
-    /// How far it strays from the trajectories it was made of.
-    pub(super) fn deviation(&self, trajectories: &[Trajectory]) -> Deviation {
-        self.bodies
+    /// The same, knowing how far it strays from the trajectories of bodies of these lengths (m).
+    pub(super) fn compared<T: Borrow<Trajectory> + Sync>(
+        mut self,
+        trajectories: &[T],
+        lengths: &[f64],
+    ) -> Self {
+        let deviations: Vec<Deviation> = self
+            .bodies
             .par_iter()
             .zip(trajectories)
-            .map(|(keyframes, trajectory)| keyframes.deviation(&trajectory.poses))
-            .reduce(Deviation::default, Deviation::worse)
+            .map(|(keyframes, trajectory)| keyframes.deviation(&trajectory.borrow().poses))
+            .collect();
+        let excess = deviations.iter().zip(lengths).map(|(d, l)| d.excess(*l));
+        self.excess = excess.fold(0.0, f64::max);
+        self.deviation = deviations
+            .into_iter()
+            .fold(Deviation::default(), Deviation::worse);
+        self
+    }
+
+    /// What to do about an animation of `fps` frames a second that strays too far, if it does.
+    pub(super) fn warning(&self, fps: f64) -> Option<String> {
+        // Both errors go with the square of the time between frames.
+        let enough = fps * self.excess.sqrt().ceil();
+        (self.excess > 1.0).then(|| {
+            format!(
+                "at {fps} frames a second the animation strays up to {} from the trajectory \
+                 between frames: use --fps {enough} or more",
+                self.deviation
+            )
+        })
     }
 }
 
@@ -219,12 +243,14 @@ mod tests {
 
     fn animation(trajectories: &[Trajectory], fps: f64) -> Animation {
         let frames = Frames::of(trajectories, fps).unwrap();
-        Animation::new(trajectories, frames, |t| t).unwrap()
+        Animation::new(trajectories, frames, |t| t)
+            .unwrap()
+            .compared(trajectories, &vec![1.0; trajectories.len()])
     }
 
     fn deviation(spin: f64, fps: u32) -> Deviation {
         let trajectories = thrown(spin);
-        animation(&trajectories, f64::from(fps)).deviation(&trajectories)
+        animation(&trajectories, f64::from(fps)).deviation
     }
 
     #[test]
@@ -256,7 +282,7 @@ mod tests {
         let keyframes = &animation.bodies[1];
         assert_eq!(keyframes.numbers, [0.0, 1.0, 2.0, 2.5]);
         assert_eq!(keyframes.positions[3], trajectories[1].poses[250].position);
-        let whole = animation.deviation(&trajectories).position;
+        let whole = animation.deviation.position;
         assert!((whole / 0.012_262_5 - 1.0).abs() < 1e-9, "{whole}");
     }
 
@@ -264,7 +290,12 @@ mod tests {
     fn a_motion_that_looks_like_another_asks_for_more_frames() {
         let warning = |position, rotation| {
             let deviation = Deviation { position, rotation };
-            deviation.warning(24.0, 0.1)
+            let animation = Animation {
+                bodies: Vec::new(),
+                deviation,
+                excess: deviation.excess(0.1),
+            };
+            animation.warning(24.0)
         };
         assert_eq!(warning(0.019, 0.34), None);
         assert!(warning(0.0, 3.1).is_some_and(|w| w.contains("use --fps 72 or more")));
@@ -275,9 +306,11 @@ mod tests {
     fn rounding_is_part_of_it() {
         let trajectories = thrown(1.0);
         let animation = animation(&trajectories, 1000.0);
-        assert!(animation.deviation(&trajectories).position < 1e-14);
-        let coarse = animation.rounded(|x| (100.0 * x).round() / 100.0, |q| q);
-        let position = coarse.deviation(&trajectories).position;
+        assert!(animation.deviation.position < 1e-14);
+        let coarse = animation
+            .rounded(|x| (100.0 * x).round() / 100.0, |q| q)
+            .compared(&trajectories, &[1.0]);
+        let position = coarse.deviation.position;
         assert!((0.004..0.0071).contains(&position), "{position}");
     }
 }

@@ -4,6 +4,8 @@
 //! next to it would only repeat the line between its neighbours and is left out: a table with a long gap
 //! makes no more frames than one without.
 
+use std::borrow::Borrow;
+
 use super::ExportError;
 use crate::track::Track;
 use crate::trajectory::Trajectory;
@@ -26,7 +28,11 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    pub(super) fn of(trajectories: &[Trajectory], fps: f64) -> Result<Self, ExportError> {
+    pub(super) fn of<T: Borrow<Trajectory>>(
+        trajectories: &[T],
+        fps: f64,
+    ) -> Result<Self, ExportError> {
+        let trajectories: Vec<&Trajectory> = trajectories.iter().map(T::borrow).collect();
         let poses = || trajectories.iter().flat_map(|t| &t.poses);
         let start = poses().map(|p| p.time).fold(f64::INFINITY, f64::min);
         let end = poses().map(|p| p.time).fold(f64::NEG_INFINITY, f64::max);
@@ -176,6 +182,9 @@ mod tests {
         for fps in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e12] {
             assert!(frames(1.0, fps).is_err(), "{fps}");
         }
-        assert!(matches!(Frames::of(&[], 60.0), Err(ExportError::NoBodies)));
+        assert!(matches!(
+            Frames::of::<Trajectory>(&[], 60.0),
+            Err(ExportError::NoBodies)
+        ));
     }
 }

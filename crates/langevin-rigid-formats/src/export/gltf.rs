@@ -1,6 +1,6 @@
 //! glTF 2.0 in one binary file: +Y up, metres, seconds, x y z w.
 //!
-//! One mesh that all bodies share, one node a body, one animation; bodies that end together
+//! One mesh that all bodies of a kind share, one node a body, one animation; bodies that end together
 //! share their times.
 
 use std::collections::HashMap;
@@ -9,9 +9,9 @@ use serde_json::{Value, json};
 
 use super::animation::{Animation, Keyframes};
 use super::frames::Frames;
-use super::parameters::{KEY, of_body, of_run};
+use super::parameters::{KEY, of_body, of_kind, of_run};
 use super::shading::{COLOUR, corner_normals};
-use super::{Deviation, ExportError, Recording, Up};
+use super::{ExportError, Kind, RecordedBody, Recording, Up};
 
 /// Frames that single precision can tell apart.
 const SINGLES: usize = 1 << 24;
@@ -21,20 +21,26 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// The bytes of the file, and how far the animation strays.
+/// The bytes of the file, and the animation in it.
 pub(super) fn glb(
     recording: &Recording<'_>,
     fps: f64,
-) -> Result<(Vec<u8>, Deviation), ExportError> {
-    let frames = Frames::of(recording.trajectories, fps)?;
-    let animation = Animation::new(recording.trajectories, frames, single)?.rounded(single, single);
+) -> Result<(Vec<u8>, Animation), ExportError> {
+    let trajectories = recording.trajectories(Up::Y);
+    let frames = Frames::of(&trajectories, fps)?;
+    let animation = Animation::new(&trajectories, frames, single)?
+        .rounded(single, single)
+        .compared(&trajectories, &recording.lengths());
     let apart = |keyframes: &Keyframes| keyframes.times.windows(2).all(|pair| pair[0] < pair[1]);
     if !animation.bodies.iter().all(apart) {
         return Err(frames.too_many(SINGLES));
     }
-    let deviation = animation.deviation(recording.trajectories);
     let mut file = File::default();
-    let mesh = file.mesh(recording);
+    let meshes: Vec<Value> = recording
+        .kinds
+        .iter()
+        .map(|kind| file.mesh(recording, kind))
+        .collect();
     let animations = file.animation(recording.conditions.scene, &animation);
     let [red, green, blue] = COLOUR;
     let document = json!({
@@ -43,10 +49,10 @@ pub(super) fn glb(
         "scenes": [{
             "name": recording.conditions.scene,
             "nodes": (0..animation.bodies.len()).collect::<Vec<_>>(),
-            "extras": { KEY: of_run(recording, Up::Y, fps, deviation) },
+            "extras": { KEY: of_run(recording, Up::Y, fps, animation.deviation) },
         }],
-        "nodes": nodes(recording.conditions.scene, &animation.bodies),
-        "meshes": [mesh],
+        "nodes": nodes(recording, &animation.bodies),
+        "meshes": meshes,
         "materials": [{
             "name": "matt",
             "pbrMetallicRoughness": {
@@ -60,7 +66,7 @@ pub(super) fn glb(
         "bufferViews": file.views,
         "buffers": [{ "byteLength": file.bytes.len() }],
     });
-    Ok((container(&document, &file.bytes)?, deviation))
+    Ok((container(&document, &file.bytes)?, animation))
 }
 
 /// To single precision and back.
@@ -68,21 +74,25 @@ fn single(x: f64) -> f64 {
     f64::from(x as f32)
 }
 
-fn nodes(name: &str, bodies: &[Keyframes]) -> Vec<Value> {
-    let node = |keyframes: &Keyframes| {
-        let name = match bodies.len() {
-            1 => name.to_owned(),
-            _ => format!("{name}.{:04}", keyframes.body),
-        };
-        json!({
-            "name": name,
-            "mesh": 0,
+fn nodes(recording: &Recording<'_>, keyframes: &[Keyframes]) -> Vec<Value> {
+    let node = |(body, keyframes): (&RecordedBody<'_>, &Keyframes)| {
+        let name = recording.kind_of(body).name;
+        let mut node = json!({
+            "name": match recording.bodies.len() {
+                1 => name.to_owned(),
+                _ => format!("{name}.{:04}", keyframes.body),
+            },
+            "mesh": body.kind,
             "translation": keyframes.positions[0],
             "rotation": keyframes.orientations[0],
-            "extras": { KEY: { "body": keyframes.body } },
-        })
+            "extras": { KEY: of_body(recording, body) },
+        });
+        if body.scale != 1.0 {
+            node["scale"] = vec![body.scale; 3].into();
+        }
+        node
     };
-    bodies.iter().map(node).collect()
+    recording.bodies.iter().zip(keyframes).map(node).collect()
 }
 
 /// What the document points into.
@@ -94,21 +104,21 @@ struct File {
 }
 
 impl File {
-    fn mesh(&mut self, recording: &Recording<'_>) -> Value {
-        let surface = &recording.bake.body.surface;
+    fn mesh(&mut self, recording: &Recording<'_>, kind: &Kind<'_>) -> Value {
+        let surface = &kind.bake.body.surface;
         let corners = split_at_edges(&surface.vertices, &surface.triangles);
         let positions = self.vectors(&corners.positions, Some(ARRAY_BUFFER));
         self.bounds(positions, &corners.positions);
         let normals = self.vectors(&corners.normals, Some(ARRAY_BUFFER));
         let indices = self.indices(&corners.triangles);
         json!({
-            "name": recording.conditions.scene,
+            "name": kind.name,
             "primitives": [{
                 "attributes": { "POSITION": positions, "NORMAL": normals },
                 "indices": indices,
                 "material": 0,
             }],
-            "extras": { KEY: of_body(recording) },
+            "extras": { KEY: of_kind(recording, kind) },
         })
     }
 

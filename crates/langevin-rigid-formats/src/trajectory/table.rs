@@ -1,5 +1,6 @@
 //! Trajectories as comma-separated values.
 
+use std::borrow::Borrow;
 use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::io;
@@ -68,9 +69,13 @@ pub enum TableError {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_csv(trajectories: &[Trajectory], out: &mut dyn io::Write) -> io::Result<()> {
+pub fn write_csv<T: Borrow<Trajectory>>(
+    trajectories: &[T],
+    out: &mut dyn io::Write,
+) -> io::Result<()> {
     writeln!(out, "{CSV_HEADER}")?;
-    let chunks: Vec<(&Trajectory, Range<usize>)> = trajectories.iter().flat_map(chunks).collect();
+    let trajectories = trajectories.iter().map(T::borrow);
+    let chunks: Vec<(&Trajectory, Range<usize>)> = trajectories.flat_map(chunks).collect();
     for batch in chunks.chunks(BATCH / CHUNK) {
         let rows: Vec<String> = batch
             .par_iter()
