@@ -1,14 +1,16 @@
 //! Runs for other programs: tables for analysis, animations for pictures.
 //!
 //! A [`Recording`] is a run: how it was made, the kinds of its bodies, and where every body went. [`write()`] puts
-//! it into a folder in a [`Format`]. Tables have every step. Animations have frames at equal times, between which
-//! programs interpolate; [`Deviation`] says how far that takes the bodies from where they were.
+//! it into a folder in a [`Format`]. Tables have every step. Animations have frames at equal times, and keys between
+//! them for bodies that turn far from frame to frame. Programs interpolate between keys; [`Deviation`] says how far
+//! that takes the bodies from where they were.
 
 mod animation;
 mod bodies;
 mod format;
 mod frames;
 mod gltf;
+mod keys;
 mod npz;
 mod parameters;
 #[cfg(feature = "parquet")]
@@ -154,9 +156,9 @@ pub struct Written {
 }
 
 impl Written {
-    fn note(&mut self, animation: &Animation, fps: f64) {
+    fn note(&mut self, animation: &Animation) {
         self.deviation = Some(animation.deviation);
-        self.warnings.extend(animation.warning(fps));
+        self.warnings.extend(animation.warning());
     }
 }
 
@@ -232,12 +234,12 @@ pub fn write(
         Format::Glb => {
             let (bytes, animation) = gltf::glb(recording, options.fps)?;
             files::write(&path, &bytes)?;
-            written.note(&animation, options.fps);
+            written.note(&animation);
         }
         Format::Usd => {
             let layer = usd::Layer::new(recording, options)?;
             files::write_with(&path, |out| layer.write(out))?;
-            written.note(&layer.animation, options.fps);
+            written.note(&layer.animation);
         }
     }
     // NumPy's arrays have it all, and animations show it.

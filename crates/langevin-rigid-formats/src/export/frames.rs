@@ -10,8 +10,8 @@ use super::ExportError;
 use crate::track::Track;
 use crate::trajectory::Trajectory;
 
-/// Most frames of an animation, over all its bodies: each takes some hundred bytes.
-const MOST: usize = 10_000_000;
+/// Most frames and keys of an animation, over all its bodies: each takes some hundred bytes.
+pub(super) const MOST: usize = 10_000_000;
 
 /// A last frame closer than this to the one before it, in frames, is the same.
 const SAME: f64 = 1e-6;
@@ -25,6 +25,8 @@ pub(super) struct Frames {
     pub(super) start: f64,
     /// Time of the last pose of any body (s).
     pub(super) end: f64,
+    /// Keys that each body may have beside its frames.
+    pub(super) spare: usize,
 }
 
 impl Frames {
@@ -39,7 +41,12 @@ impl Frames {
         if end < start {
             return Err(ExportError::NoBodies);
         }
-        let frames = Self { fps, start, end };
+        let frames = Self {
+            fps,
+            start,
+            end,
+            spare: 0,
+        };
         if !(fps > 0.0 && (end - start) * fps < MOST as f64) {
             return Err(frames.too_many(MOST));
         }
@@ -52,7 +59,8 @@ impl Frames {
                 most: MOST,
             });
         }
-        Ok(frames)
+        let spare = (MOST - all as usize) / trajectories.len();
+        Ok(Self { spare, ..frames })
     }
 
     /// The most frames of a body.
@@ -73,9 +81,8 @@ impl Frames {
 
     /// Numbers of a body's frames: the first, the whole ones next to each of its poses, and its end.
     pub(super) fn of_track(self, track: &Track<'_>) -> Vec<f64> {
-        let number = |time: f64| (time - self.start) * self.fps;
         // Rounding of the end is no frame of its own.
-        let end = number(track.end());
+        let end = self.number(track.end());
         let whole = end.round();
         let end = if (end - whole).abs() <= SAME {
             whole
@@ -85,7 +92,7 @@ impl Frames {
         let mut numbers = vec![0.0];
         let mut last = 0.0;
         for pose in track.poses() {
-            let at = number(pose.time);
+            let at = self.number(pose.time);
             for next in [at.floor(), at.ceil()] {
                 if last < next && next < end {
                     numbers.push(next);
@@ -97,6 +104,11 @@ impl Frames {
             numbers.push(end);
         }
         numbers
+    }
+
+    /// The number that a frame at some time (s) has, whole or not.
+    pub(super) fn number(self, time: f64) -> f64 {
+        (time - self.start) * self.fps
     }
 
     /// The time of a frame (s).

@@ -28,9 +28,10 @@ pub(super) fn glb(
 ) -> Result<(Vec<u8>, Animation), ExportError> {
     let trajectories = recording.trajectories(Up::Y);
     let frames = Frames::of(&trajectories, fps)?;
-    let animation = Animation::new(&trajectories, frames, single)?
+    let lengths = recording.lengths();
+    let animation = Animation::new(&trajectories, &lengths, frames, single)?
         .rounded(single, single)
-        .compared(&trajectories, &recording.lengths());
+        .compared(&trajectories, &lengths);
     let apart = |keyframes: &Keyframes| keyframes.times.windows(2).all(|pair| pair[0] < pair[1]);
     if !animation.bodies.iter().all(apart) {
         return Err(frames.too_many(SINGLES));

@@ -43,7 +43,7 @@ impl<'a> Layer<'a> {
         let lengths = recording.lengths();
         let size = 0.5 * lengths.iter().copied().fold(f64::INFINITY, f64::min);
         let decimals = (-libm::log10(FINE * size)).ceil().clamp(6.0, 15.0) as i32;
-        let animation = Animation::new(&trajectories, frames, |time| time)?
+        let animation = Animation::new(&trajectories, &lengths, frames, |time| time)?
             .rounded(rounding(decimals), rounding(TURN_DECIMALS))
             .compared(&trajectories, &lengths);
         Ok(Self {
