@@ -25,10 +25,7 @@ pub(crate) fn export(bytes: &[u8]) {
     let Some(trajectories) = trajectories(bytes) else {
         return;
     };
-    let kind = Kind {
-        name: &STAGE.scene.name,
-        bake: &STAGE.bake,
-    };
+    let kind = Kind::new(&STAGE.scene.name, &STAGE.bake);
     let bodies: Vec<RecordedBody<'_>> = trajectories.iter().map(RecordedBody::from).collect();
     let recording = Recording {
         conditions: STAGE.scene.conditions(),

@@ -25,10 +25,7 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     let _claim = Claim::folder(folder)?;
     let baked = cache::bake(&scene, bars)?;
     bars.clear();
-    let kind = Kind {
-        name: &scene.name,
-        bake: &baked.bake,
-    };
+    let kind = Kind::new(&scene.name, &baked.bake);
     let bodies: Vec<RecordedBody<'_>> = trajectories.iter().map(RecordedBody::from).collect();
     let run = Recording {
         conditions: scene.conditions(),

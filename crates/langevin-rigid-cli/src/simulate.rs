@@ -62,10 +62,7 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
         .map(|fall| Trajectory::new(fall.body, &fall.states))
         .collect();
     let shot = Shot::new(options, &prepared, &trajectories[0].poses);
-    let kind = Kind {
-        name: &scene.name,
-        bake: &baked.bake,
-    };
+    let kind = Kind::new(&scene.name, &baked.bake);
     let bodies: Vec<RecordedBody<'_>> = trajectories.iter().map(RecordedBody::from).collect();
     let run = Recording {
         conditions: scene.conditions(),

@@ -127,6 +127,19 @@ pub enum ExportError {
         /// The largest number of frames.
         most: usize,
     },
+    /// Visuals of many parts on many bodies.
+    #[error(
+        "the visuals of {bodies} bodies make {nodes} objects, and at most {most} are possible: join the objects of \
+         a visual, or export fewer bodies"
+    )]
+    TooManyNodes {
+        /// How many nodes they make.
+        nodes: usize,
+        /// How many bodies there are.
+        bodies: usize,
+        /// The largest number of nodes.
+        most: usize,
+    },
     /// More than the format holds.
     #[error("the animation takes {bytes} bytes, a GLB file holds 4 GiB: lower the frames a second")]
     TooLarge {
@@ -199,7 +212,7 @@ impl Written {
 /// let fall = Trajectory::new(0, &states);
 /// let recording = Recording {
 ///     conditions,
-///     kinds: &[Kind { name: "ball", bake: &bake }],
+///     kinds: &[Kind::new("ball", &bake)],
 ///     bodies: &[RecordedBody::from(&fall)],
 /// };
 /// let folder = tempfile::tempdir()?;
@@ -240,6 +253,7 @@ pub fn write(
             let layer = usd::Layer::new(recording, options)?;
             files::write_with(&path, |out| layer.write(out))?;
             written.note(&layer.animation);
+            written.warnings.extend(recording.without_visuals());
         }
     }
     // NumPy's arrays have it all, and animations show it.

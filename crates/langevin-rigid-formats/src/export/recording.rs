@@ -6,6 +6,7 @@ use langevin_rigid::{Bake, Fluid, Settings};
 
 use super::{ExportError, Up};
 use crate::trajectory::Trajectory;
+use crate::visual::Visual;
 
 /// How a run was made, which animations say beside what they show.
 #[derive(Debug, Clone, Copy)]
@@ -29,6 +30,19 @@ pub struct Kind<'a> {
     pub name: &'a str,
     /// The bake of a body of scale one, of which surface and mass properties are shown.
     pub bake: &'a Bake,
+    /// What it looks like in GLB; its surface if none.
+    pub visual: Option<&'a Visual>,
+}
+
+impl<'a> Kind<'a> {
+    /// A kind that looks like its surface.
+    pub fn new(name: &'a str, bake: &'a Bake) -> Self {
+        Self {
+            name,
+            bake,
+            visual: None,
+        }
+    }
 }
 
 /// A body of a run.
@@ -86,6 +100,23 @@ impl<'a> Recording<'a> {
             }
         }
         Ok(())
+    }
+
+    /// What the bodies look like is in GLB only.
+    pub(super) fn without_visuals(&self) -> Option<String> {
+        let names: Vec<&str> = self
+            .kinds
+            .iter()
+            .filter(|kind| kind.visual.is_some())
+            .map(|kind| kind.name)
+            .collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "USD shows the surface of {} that was simulated: its visual, with materials and textures, is in GLB \
+                 only (`--format glb`)",
+                names.join(", ")
+            )
+        })
     }
 
     /// Whether there is nothing to say of a body's kind and size.

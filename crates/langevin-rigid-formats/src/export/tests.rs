@@ -164,7 +164,7 @@ pub(super) fn recorded<R>(
     work: impl FnOnce(&Recording<'_>) -> R,
 ) -> R {
     let bake = brick();
-    let kinds = ["brick-7", "\"long\", brick"].map(|name| Kind { name, bake: &bake });
+    let kinds = ["brick-7", "\"long\", brick"].map(|name| Kind::new(name, &bake));
     let several = bodies.iter().any(|body| body.kind > 0);
     work(&Recording {
         conditions: Conditions {
