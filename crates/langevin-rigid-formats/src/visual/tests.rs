@@ -78,9 +78,9 @@ fn square() -> Value {
             { "bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR" },
         ],
         "bufferViews": [
-            { "buffer": 0, "byteLength": 48 },
-            { "buffer": 0, "byteOffset": 48, "byteLength": 32 },
-            { "buffer": 0, "byteOffset": 80, "byteLength": 12 },
+            { "buffer": 0, "byteLength": 48, "target": 34962 },
+            { "buffer": 0, "byteOffset": 48, "byteLength": 32, "target": 34962 },
+            { "buffer": 0, "byteOffset": 80, "byteLength": 12, "target": 34963 },
             { "buffer": 0, "byteOffset": 92, "byteLength": PIXEL.len() },
         ],
         "buffers": [{ "byteLength": 92 + PIXEL.len() }],
@@ -224,7 +224,7 @@ fn damaged_visuals_say_what_is_wrong() {
         ("/bufferViews/3/buffer", json!(1), "there is no buffer 1"),
         (
             "/bufferViews/3",
-            json!([0, 0, 12]),
+            json!([0, 92, 69, null, null]),
             "there is no buffer view 3",
         ),
         ("/scenes/0/nodes", json!([]), "no triangles"),
