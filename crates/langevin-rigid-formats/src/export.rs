@@ -26,6 +26,7 @@ use std::path::Path;
 
 use animation::Animation;
 pub use animation::Deviation;
+pub use bodies::{BodyRow, read_bodies};
 pub use format::Format;
 pub use recording::{Conditions, Kind, RecordedBody, Recording};
 pub use up::Up;

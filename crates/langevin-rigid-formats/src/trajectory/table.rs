@@ -32,6 +32,12 @@ pub enum TableError {
     /// The first line is another.
     #[error("line 1: the columns are not those of a trajectory ({CSV_HEADER})")]
     Header,
+    /// The first line of another table is another.
+    #[error("line 1: the columns are not those of this table ({columns})")]
+    Columns {
+        /// What they should be.
+        columns: &'static str,
+    },
     /// A line cannot be read.
     #[error("line {line}: {reason}; the table is damaged or was edited, run the scene again")]
     Line {
