@@ -29,7 +29,7 @@ const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 /// Bytes of views for each byte read, and beyond these.
 const MOST_GROWTH: usize = 16;
-const ALWAYS: usize = 1 << 26;
+const ALWAYS: usize = 1 << 20;
 
 /// The nodes below `roots`, which are a tree, and all that they use.
 pub(super) fn gather(
