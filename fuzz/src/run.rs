@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use langevin_rigid::Bake;
-use langevin_rigid_formats::export::{Format, Options, Recording, write};
+use langevin_rigid_formats::export::{Format, Kind, Options, RecordedBody, Recording, write};
 use langevin_rigid_formats::trajectory::{CSV_HEADER, Trajectory, read_csv, write_csv};
 use langevin_rigid_scenes::baking::bake_scene;
 use langevin_rigid_scenes::scene::Scene;
@@ -25,10 +25,12 @@ pub(crate) fn export(bytes: &[u8]) {
     let Some(trajectories) = trajectories(bytes) else {
         return;
     };
+    let kind = Kind::new(&STAGE.scene.name, &STAGE.bake);
+    let bodies: Vec<RecordedBody<'_>> = trajectories.iter().map(RecordedBody::from).collect();
     let recording = Recording {
         conditions: STAGE.scene.conditions(),
-        bake: &STAGE.bake,
-        trajectories: &trajectories,
+        kinds: &[kind],
+        bodies: &bodies,
     };
     for format in Format::ALL.into_iter().filter(|format| format.built()) {
         export_as(format, &recording, STAGE.folder.path());
@@ -66,8 +68,8 @@ static STAGE: LazyLock<Stage> = LazyLock::new(|| {
 fn export_as(format: Format, recording: &Recording, folder: &Path) {
     match write(recording, format, folder, &Options::default()) {
         Err(error) => assert!(!error.to_string().is_empty()),
-        Ok(deviation) => {
-            if let Some(d) = deviation {
+        Ok(written) => {
+            if let Some(d) = written.deviation {
                 assert!(!d.position.is_nan(), "{format}: {d:?}");
             }
         }

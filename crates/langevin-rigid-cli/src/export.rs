@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use langevin_rigid_formats::export::{self, Format, Options, Recording, Up};
+use langevin_rigid_formats::export::{self, Format, Kind, Options, RecordedBody, Recording, Up};
 use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::{Trajectory, read_csv};
 use langevin_rigid_scenes::scene::{self, Scene};
@@ -25,10 +25,12 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     let _claim = Claim::folder(folder)?;
     let baked = cache::bake(&scene, bars)?;
     bars.clear();
+    let kind = Kind::new(&scene.name, &baked.bake);
+    let bodies: Vec<RecordedBody<'_>> = trajectories.iter().map(RecordedBody::from).collect();
     let run = Recording {
         conditions: scene.conditions(),
-        bake: &baked.bake,
-        trajectories: &trajectories,
+        kinds: &[kind],
+        bodies: &bodies,
     };
     let how = Options {
         fps: options.fps,
@@ -39,19 +41,18 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     }
     let mut out = say::out();
     for &format in &options.format {
-        let deviation = export::write(&run, format, folder, &how)?;
+        let written = export::write(&run, format, folder, &how)?;
         let path = folder.join(format.file_name());
         write!(out, "wrote {}", path.display())?;
-        if let Some(deviation) = deviation {
+        if let Some(deviation) = written.deviation {
             write!(
                 out,
                 ": {} frames a second, within {deviation} of the trajectory",
                 options.fps
             )?;
-            let length = 2.0 * baked.bake.body.half_extents[0];
-            if let Some(warning) = deviation.warning(options.fps, length) {
-                say::warning(format!("{format}: {warning}"));
-            }
+        }
+        for warning in written.warnings {
+            say::warning(format!("{format}: {warning}"));
         }
         writeln!(out)?;
     }

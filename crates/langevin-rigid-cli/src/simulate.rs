@@ -6,7 +6,9 @@ use std::time::Instant;
 
 use anyhow::{Context as _, Result, bail};
 use langevin_rigid_formats::budget;
-use langevin_rigid_formats::export::{self, ExportError, Format, Options, Recording};
+use langevin_rigid_formats::export::{
+    self, ExportError, Format, Kind, Options, RecordedBody, Recording,
+};
 use langevin_rigid_formats::files;
 use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::Trajectory;
@@ -60,10 +62,12 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
         .map(|fall| Trajectory::new(fall.body, &fall.states))
         .collect();
     let shot = Shot::new(options, &prepared, &trajectories[0].poses);
+    let kind = Kind::new(&scene.name, &baked.bake);
+    let bodies: Vec<RecordedBody<'_>> = trajectories.iter().map(RecordedBody::from).collect();
     let run = Recording {
         conditions: scene.conditions(),
-        bake: &baked.bake,
-        trajectories: &trajectories,
+        kinds: &[kind],
+        bodies: &bodies,
     };
     let formats = write_all(options, &folder, scene, &run, &shot, &mut summary)?;
     let film = match &options.frames {
@@ -184,8 +188,7 @@ fn write_all(
         ..Options::default()
     };
     let mut write = |format: Format| -> Result<(), ExportError> {
-        let deviation = export::write(run, format, folder, &how)?;
-        summary.wrote(format, deviation, options.fps, &run.bake.body);
+        summary.wrote(format, export::write(run, format, folder, &how)?);
         Ok(())
     };
     let mut written = Ok(());

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use langevin_rigid::{Body, State, Stepper};
-use langevin_rigid_formats::export::{Deviation, Format};
+use langevin_rigid::{State, Stepper};
+use langevin_rigid_formats::export::{Deviation, Format, Written};
 use langevin_rigid_scenes::baking::Baked;
 use langevin_rigid_scenes::prepared::{Fall, Prepared};
 use langevin_rigid_scenes::scene::Scene;
@@ -110,22 +110,16 @@ impl Summary {
         }
     }
 
-    /// Notes a file and how good it is.
-    pub(crate) fn wrote(
-        &mut self,
-        format: Format,
-        deviation: Option<Deviation>,
-        fps: f64,
-        body: &Body,
-    ) {
-        self.files.push(format.file_name().into());
-        let Some(deviation) = deviation else { return };
-        let warning = deviation.warning(fps, 2.0 * body.half_extents[0]);
+    /// Notes the files of a format and how good they are.
+    pub(crate) fn wrote(&mut self, format: Format, written: Written) {
+        self.files.extend(written.files);
         // Of two animations of one run the same is to be said.
-        if self.deviation.is_empty() {
-            self.warnings.extend(warning);
+        let new = |warning: &String| !self.warnings.contains(warning);
+        let warnings: Vec<String> = written.warnings.into_iter().filter(new).collect();
+        self.warnings.extend(warnings);
+        if let Some(deviation) = written.deviation {
+            self.deviation.insert(format.name(), deviation);
         }
-        self.deviation.insert(format.name(), deviation);
     }
 }
 

@@ -1,17 +1,21 @@
 //! Runs for other programs: tables for analysis, animations for pictures.
 //!
-//! A [`Recording`] is a run: how it was made, its bake, and where every body went. [`write()`] puts it into a folder
-//! in a [`Format`]. Tables have every step. Animations have frames at equal times, between which programs
-//! interpolate; [`Deviation`] says how far that takes the bodies from where they were.
+//! A [`Recording`] is a run: how it was made, the kinds of its bodies, and where every body went. [`write()`] puts
+//! it into a folder in a [`Format`]. Tables have every step. Animations have frames at equal times, and keys between
+//! them for bodies that turn far from frame to frame. Programs interpolate between keys; [`Deviation`] says how far
+//! that takes the bodies from where they were.
 
 mod animation;
+mod bodies;
 mod format;
 mod frames;
 mod gltf;
+mod keys;
 mod npz;
 mod parameters;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod recording;
 mod shading;
 mod up;
 mod usd;
@@ -20,41 +24,16 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::Path;
 
-use langevin_rigid::{Bake, Fluid, Settings};
-
+use animation::Animation;
 pub use animation::Deviation;
+pub use bodies::{BodyRow, read_bodies};
 pub use format::Format;
+pub use recording::{Conditions, Kind, RecordedBody, Recording};
 pub use up::Up;
 
 use crate::files::{self, WriteError};
 use crate::track::TrackError;
-use crate::trajectory::{Trajectory, write_csv};
-
-/// How a run was made, which animations say beside what they show.
-#[derive(Debug, Clone, Copy)]
-pub struct Conditions<'a> {
-    /// Name of the scene.
-    pub scene: &'a str,
-    /// What the bodies are immersed in.
-    pub fluid: &'a Fluid,
-    /// Model, integrator, turbulence, gravity.
-    pub settings: &'a Settings,
-    /// Seed of the noise.
-    pub seed: u64,
-    /// Time step (s).
-    pub time_step: f64,
-}
-
-/// A run: the bodies of a scene and where they went.
-#[derive(Debug, Clone, Copy)]
-pub struct Recording<'a> {
-    /// How it was made.
-    pub conditions: Conditions<'a>,
-    /// Its bake, of which surface and mass properties are shown.
-    pub bake: &'a Bake,
-    /// One for each body; all have the same shape.
-    pub trajectories: &'a [Trajectory],
-}
+use crate::trajectory::write_csv;
 
 /// How a recording is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,6 +82,24 @@ pub enum ExportError {
     /// There is no body.
     #[error("there is no trajectory to export: run the scene again")]
     NoBodies,
+    /// A body is of a kind that is not there.
+    #[error("body {body} is of kind {kind}, and there are {kinds} kinds, counted from 0")]
+    UnknownKind {
+        /// Number of the body.
+        body: u32,
+        /// Its kind.
+        kind: usize,
+        /// How many kinds there are.
+        kinds: usize,
+    },
+    /// A body has no possible size.
+    #[error("body {body} has the scale {scale}: give a positive number")]
+    Scale {
+        /// Number of the body.
+        body: u32,
+        /// Its scale.
+        scale: f64,
+    },
     /// The run cannot be divided into frames.
     #[error(
         "{fps} frames a second of {duration} s make no animation: ask for a positive rate and at most \
@@ -131,6 +128,19 @@ pub enum ExportError {
         /// The largest number of frames.
         most: usize,
     },
+    /// Visuals of many parts on many bodies.
+    #[error(
+        "the visuals of {bodies} bodies make {nodes} objects, and at most {most} are possible: join the objects of \
+         a visual, or export fewer bodies"
+    )]
+    TooManyNodes {
+        /// How many nodes they make.
+        nodes: usize,
+        /// How many bodies there are.
+        bodies: usize,
+        /// The largest number of nodes.
+        most: usize,
+    },
     /// More than the format holds.
     #[error("the animation takes {bytes} bytes, a GLB file holds 4 GiB: lower the frames a second")]
     TooLarge {
@@ -147,13 +157,33 @@ pub enum ExportError {
     },
 }
 
-/// Writes a recording into `folder` as [`Format::file_name`] says; of an animation gives how far it strays.
+/// What was written of a recording.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Written {
+    /// Names of the files in the folder, that of the format first.
+    pub files: Vec<String>,
+    /// Of an animation, how far it strays from the trajectories.
+    pub deviation: Option<Deviation>,
+    /// What is not as one might expect and what to do about it, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+impl Written {
+    fn note(&mut self, animation: &Animation) {
+        self.deviation = Some(animation.deviation);
+        self.warnings.extend(animation.warning());
+    }
+}
+
+/// Writes a recording into `folder`: a file as [`Format::file_name`] says, and `bodies.csv` beside a table of bodies
+/// that differ in kind or size.
 ///
 /// ```
 /// use langevin_rigid::{Bake, Fluid, Input, Model, Settings, State, Stepper};
 /// use langevin_rigid_bake::body::{BodySpec, bake_body};
 /// use langevin_rigid_bake::shapes::Shape;
-/// use langevin_rigid_formats::export::{Conditions, Format, Options, Recording, write};
+/// use langevin_rigid_formats::export::{Conditions, Format, Kind, Options, RecordedBody, Recording, write};
 /// use langevin_rigid_formats::trajectory::Trajectory;
 /// let ball = Shape::Ellipsoid { semi_axes: [0.01, 0.01, 0.01] }.mesh(80)?;
 /// let spec = BodySpec { density: Some(1100.0), ..BodySpec::default() };
@@ -180,11 +210,15 @@ pub enum ExportError {
 ///     seed: 0,
 ///     time_step: 0.002,
 /// };
-/// let fall = [Trajectory::new(0, &states)];
-/// let recording = Recording { conditions, bake: &bake, trajectories: &fall };
+/// let fall = Trajectory::new(0, &states);
+/// let recording = Recording {
+///     conditions,
+///     kinds: &[Kind::new("ball", &bake)],
+///     bodies: &[RecordedBody::from(&fall)],
+/// };
 /// let folder = tempfile::tempdir()?;
-/// let deviation = write(&recording, Format::Glb, folder.path(), &Options::default())?;
-/// assert!(deviation.is_some_and(|s| s.position < 3e-5)); // of 3 mm fallen
+/// let written = write(&recording, Format::Glb, folder.path(), &Options::default())?;
+/// assert!(written.deviation.is_some_and(|s| s.position < 3e-5)); // of 3 mm fallen
 /// assert!(folder.path().join("trajectory.glb").is_file());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -196,35 +230,47 @@ pub fn write(
     format: Format,
     folder: &Path,
     options: &Options,
-) -> Result<Option<Deviation>, ExportError> {
+) -> Result<Written, ExportError> {
+    recording.check()?;
     let path = folder.join(format.file_name());
-    let trajectories = || options.up.of(recording.trajectories);
+    let trajectories = || recording.trajectories(options.up);
+    let mut written = Written {
+        files: vec![format.file_name().to_owned()],
+        ..Written::default()
+    };
     match format {
-        Format::Csv => table(&path, |out| write_csv(&trajectories(), out)),
-        Format::Npz => table(&path, |out| npz::write(&trajectories(), out)),
+        Format::Csv => table(&path, |out| write_csv(&trajectories(), out))?,
+        Format::Npz => table(&path, |out| npz::write(recording, options.up, out))?,
         #[cfg(feature = "parquet")]
-        Format::Parquet => table(&path, |out| parquet::write(&trajectories(), out)),
+        Format::Parquet => table(&path, |out| parquet::write(&trajectories(), out))?,
         #[cfg(not(feature = "parquet"))]
-        Format::Parquet => Err(ExportError::NotBuilt { format }),
+        Format::Parquet => return Err(ExportError::NotBuilt { format }),
         Format::Glb => {
-            let (bytes, deviation) = gltf::glb(recording, options.fps)?;
+            let (bytes, animation) = gltf::glb(recording, options.fps)?;
             files::write(&path, &bytes)?;
-            Ok(Some(deviation))
+            written.note(&animation);
         }
         Format::Usd => {
             let layer = usd::Layer::new(recording, options)?;
             files::write_with(&path, |out| layer.write(out))?;
-            Ok(Some(layer.deviation))
+            written.note(&layer.animation);
+            written.warnings.extend(recording.without_visuals());
         }
     }
+    // NumPy's arrays have it all, and animations show it.
+    if matches!(format, Format::Csv | Format::Parquet) && !recording.is_uniform() {
+        let path = folder.join(bodies::FILE_NAME);
+        table(&path, |out| bodies::write(recording, out))?;
+        written.files.push(bodies::FILE_NAME.to_owned());
+    }
+    Ok(written)
 }
 
 fn table(
     path: &Path,
     content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<Option<Deviation>, ExportError> {
-    files::write_with(path, content)?;
-    Ok(None)
+) -> Result<(), WriteError> {
+    files::write_with(path, content)
 }
 
 #[cfg(test)]

@@ -41,6 +41,7 @@
 //! - [`trajectory`]: where a body went, and the table of it as CSV, written and read.
 //! - [`track`]: where a body is between its recorded poses.
 //! - [`export`]: runs as CSV, NumPy, Parquet, glTF or USD.
+//! - [`visual`]: what a body looks like, from glTF to an exported GLB.
 //! - [`wind_table`]: velocities of a wind on a grid, from NumPy.
 //! - [`added_mass`]: the tensor for Gazebo, UUV Simulator, MuJoCo and Capytaine, as JSON, CSV or a table for people.
 //! - [`files`]: writes files whole or not at all, and claims a place before the work begins.
@@ -71,4 +72,5 @@ pub mod files;
 pub mod mesh;
 pub mod track;
 pub mod trajectory;
+pub mod visual;
 pub mod wind_table;

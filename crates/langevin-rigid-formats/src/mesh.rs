@@ -13,7 +13,7 @@
 mod collada;
 mod error;
 mod foreign;
-mod gltf;
+pub(crate) mod gltf;
 mod obj;
 mod ply;
 mod polygon;

@@ -154,7 +154,7 @@ pub(crate) fn nearer(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 }
 
 /// Half the angle of the turn between two unit quaternions on the same side (rad).
-pub(crate) fn half_angle(a: [f64; 4], b: [f64; 4]) -> f64 {
+fn half_angle(a: [f64; 4], b: [f64; 4]) -> f64 {
     let length = |sign: f64| {
         let parts = a.iter().zip(&b).map(|(x, y)| x + sign * y);
         parts.map(|x| x * x).sum::<f64>().sqrt()
@@ -162,8 +162,13 @@ pub(crate) fn half_angle(a: [f64; 4], b: [f64; 4]) -> f64 {
     2.0 * atan2(length(-1.0), length(1.0))
 }
 
+/// Angle of the shorter turn from one orientation to another, the first of unit length (rad).
+pub(crate) fn turn(a: [f64; 4], b: [f64; 4]) -> f64 {
+    2.0 * half_angle(a, nearer(a, unit(b)))
+}
+
 /// Not called with zero: the poses are checked, and the shorter arc misses the origin.
-fn unit(q: [f64; 4]) -> [f64; 4] {
+pub(crate) fn unit(q: [f64; 4]) -> [f64; 4] {
     let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
     q.map(|c| c / norm)
 }

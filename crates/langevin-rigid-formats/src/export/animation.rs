@@ -1,5 +1,6 @@
-//! Motion at frames, and how far what programs make of it strays from the motion itself.
+//! Motion at keys, and how far what programs make of it strays from the motion itself.
 
+use std::borrow::Borrow;
 use std::fmt;
 
 use langevin_rigid::linalg::vector::{norm, sub};
@@ -7,13 +8,14 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::ExportError;
-use super::frames::Frames;
-use crate::track::{Pose, Track, arc, half_angle, line, nearer};
+use super::frames::{Frames, MOST};
+use super::keys::{Chosen, Keys};
+use crate::track::{Pose, Track, arc, line, nearer, turn};
 use crate::trajectory::Trajectory;
 
 /// The largest distance and turn between a body of a trajectory and the same in an animation of it.
 ///
-/// Between frames positions go on straight lines and orientations on the shorter arc (slerp), as glTF and
+/// Between keys positions go on straight lines and orientations on the shorter arc (slerp), as glTF and
 /// USD have it. Compared at every pose of the trajectory, the rounding of the file's numbers included.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Deviation {
@@ -23,27 +25,24 @@ pub struct Deviation {
     pub rotation: f64,
 }
 
-/// Share of the body's length, and angle (rad), beyond which the motion between frames is another one:
-/// most often the body turns by more than a right angle from frame to frame.
+/// Share of the body's length, and angle (rad), beyond which the motion between keys is another one.
 const LARGE: Deviation = Deviation {
     position: 0.2,
     rotation: 0.35,
 };
 
 impl Deviation {
-    /// What to do about an animation of `fps` frames a second that strays too far for a body of some
-    /// `length` (m), if it does.
-    pub fn warning(&self, fps: f64, length: f64) -> Option<String> {
-        let excess =
-            (self.position / (LARGE.position * length)).max(self.rotation / LARGE.rotation);
-        // Both errors go with the square of the time between frames.
-        let enough = fps * excess.sqrt().ceil();
-        (excess > 1.0).then(|| {
-            format!(
-                "at {fps} frames a second the animation strays up to {self} from the trajectory \
-                 between frames: use --fps {enough} or more"
-            )
-        })
+    /// Of what is shown at the time of a pose; the orientation is of unit length.
+    pub(super) fn of((position, orientation): ([f64; 3], [f64; 4]), pose: &Pose) -> Self {
+        Self {
+            position: norm(sub(position, pose.position)),
+            rotation: turn(orientation, pose.orientation),
+        }
+    }
+
+    /// Whether it makes another motion of that of a body of some `length` (m).
+    pub(super) fn is_large(self, length: f64) -> bool {
+        self.position > LARGE.position * length || self.rotation > LARGE.rotation
     }
 
     fn worse(self, other: Self) -> Self {
@@ -61,56 +60,63 @@ impl fmt::Display for Deviation {
     }
 }
 
-/// All bodies at frames.
+/// All bodies at their keys.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Animation {
     /// One for each body.
     pub(super) bodies: Vec<Keyframes>,
+    /// How far it strays from the trajectories it was made of.
+    pub(super) deviation: Deviation,
+    /// Whether that makes another motion of a body's.
+    is_another: bool,
 }
 
-/// One body at the frames until its own end, where it stays.
+/// One body at frames, and between them where it moves too much, until its own end, where it stays.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Keyframes {
     /// Number of the body.
     pub(super) body: u32,
-    /// Numbers of its frames, whole but for the last.
+    /// Numbers of its frames, whole but for the last and for keys between frames.
     pub(super) numbers: Vec<f64>,
-    /// Times of its frames, as the file has them (s).
+    /// Times of its keys, as the file has them (s).
     pub(super) times: Vec<f64>,
-    /// Position at each frame, at least one (m).
+    /// Position at each key, at least one (m).
     pub(super) positions: Vec<[f64; 3]>,
-    /// Orientation at each frame, unit quaternions, neighbours on the same side.
+    /// Orientation at each key, unit quaternions, neighbours on the same side.
     pub(super) orientations: Vec<[f64; 4]>,
 }
 
 impl Animation {
-    /// The trajectories at `frames`, whose times a file rounds by `rounded_time`.
-    pub(super) fn new(
-        trajectories: &[Trajectory],
+    /// The trajectories of bodies of these lengths (m) at `frames`, whose times a file rounds by `rounded_time`.
+    pub(super) fn new<T: Borrow<Trajectory> + Sync>(
+        trajectories: &[T],
+        lengths: &[f64],
         frames: Frames,
         rounded_time: impl Fn(f64) -> f64 + Sync,
     ) -> Result<Self, ExportError> {
         let bodies: Result<Vec<Keyframes>, ExportError> = trajectories
             .par_iter()
-            .map(|trajectory| {
+            .zip(lengths)
+            .map(|(trajectory, &length)| {
+                let trajectory = trajectory.borrow();
                 let track = Track::new(&trajectory.poses).map_err(|error| ExportError::Track {
                     body: trajectory.body,
                     error,
                 })?;
-                let mut numbers = frames.of_track(&track);
-                let time = |number: &f64| rounded_time(frames.time(*number));
-                let mut times: Vec<f64> = numbers.iter().map(time).collect();
-                if let [.., before, end] = times[..]
-                    && before == end
-                {
-                    // Rounding leaves no time between them: the end is the frame.
-                    numbers.remove(numbers.len() - 2);
-                    times.pop();
-                }
-                Ok(Keyframes::new(trajectory.body, &track, numbers, times))
+                let keys = Keys {
+                    track: &track,
+                    frames,
+                    rounded_time: &rounded_time,
+                    length,
+                };
+                Ok(Keyframes::new(trajectory.body, &track, keys.choose()))
             })
             .collect();
-        Ok(Self { bodies: bodies? })
+        Ok(Self {
+            bodies: bodies?,
+            deviation: Deviation::default(),
+            is_another: false,
+        })
     }
 
     /// The same with each number as a file has it.
@@ -130,18 +136,41 @@ impl Animation {
         self
     }
 
-    /// How far it strays from the trajectories it was made of.
-    pub(super) fn deviation(&self, trajectories: &[Trajectory]) -> Deviation {
-        self.bodies
+    /// The same, knowing how far it strays from the trajectories of bodies of these lengths (m).
+    pub(super) fn compared<T: Borrow<Trajectory> + Sync>(
+        mut self,
+        trajectories: &[T],
+        lengths: &[f64],
+    ) -> Self {
+        let deviations: Vec<Deviation> = self
+            .bodies
             .par_iter()
             .zip(trajectories)
-            .map(|(keyframes, trajectory)| keyframes.deviation(&trajectory.poses))
-            .reduce(Deviation::default, Deviation::worse)
+            .map(|(keyframes, trajectory)| keyframes.deviation(&trajectory.borrow().poses))
+            .collect();
+        let mut pairs = deviations.iter().zip(lengths);
+        self.is_another = pairs.any(|(deviation, length)| deviation.is_large(*length));
+        self.deviation = deviations
+            .into_iter()
+            .fold(Deviation::default(), Deviation::worse);
+        self
+    }
+
+    /// What to do about an animation that strays too far, if it does.
+    pub(super) fn warning(&self) -> Option<String> {
+        self.is_another.then(|| {
+            format!(
+                "the animation strays up to {} from the trajectory: {MOST} keys over all bodies and the \
+                 digits of its numbers allow no better; export fewer bodies, a shorter run or one nearer to \
+                 the origin, or a format that has every step (csv, npz)",
+                self.deviation
+            )
+        })
     }
 }
 
 impl Keyframes {
-    fn new(body: u32, track: &Track<'_>, numbers: Vec<f64>, times: Vec<f64>) -> Self {
+    fn new(body: u32, track: &Track<'_>, Chosen { numbers, times }: Chosen) -> Self {
         let poses: Vec<Pose> = times.iter().map(|time| track.at(*time)).collect();
         let mut orientations: Vec<[f64; 4]> = Vec::with_capacity(poses.len());
         for pose in &poses {
@@ -157,7 +186,7 @@ impl Keyframes {
         }
     }
 
-    /// What a program shows at `time`, given the number of frames that are not after it.
+    /// What a program shows at `time`, given the number of keys that are not after it.
     fn shown(&self, passed: usize, time: f64) -> ([f64; 3], [f64; 4]) {
         let last = self.times.len() - 1;
         let (a, b) = (passed.saturating_sub(1), passed.min(last));
@@ -179,20 +208,10 @@ impl Keyframes {
             while passed < self.times.len() && self.times[passed] <= pose.time {
                 passed += 1;
             }
-            let (position, orientation) = self.shown(passed, pose.time);
-            worst = worst.worse(Deviation {
-                position: norm(sub(position, pose.position)),
-                rotation: angle(orientation, pose.orientation),
-            });
+            worst = worst.worse(Deviation::of(self.shown(passed, pose.time), pose));
         }
         worst
     }
-}
-
-/// Angle of the turn from one orientation to another, the first of unit length (rad).
-fn angle(a: [f64; 4], b: [f64; 4]) -> f64 {
-    let length = b.iter().map(|x| x * x).sum::<f64>().sqrt();
-    2.0 * half_angle(a, nearer(a, b.map(|x| x / length)))
 }
 
 #[cfg(test)]
@@ -219,12 +238,15 @@ mod tests {
 
     fn animation(trajectories: &[Trajectory], fps: f64) -> Animation {
         let frames = Frames::of(trajectories, fps).unwrap();
-        Animation::new(trajectories, frames, |t| t).unwrap()
+        let lengths = vec![1.0; trajectories.len()];
+        Animation::new(trajectories, &lengths, frames, |t| t)
+            .unwrap()
+            .compared(trajectories, &lengths)
     }
 
     fn deviation(spin: f64, fps: u32) -> Deviation {
         let trajectories = thrown(spin);
-        animation(&trajectories, f64::from(fps)).deviation(&trajectories)
+        animation(&trajectories, f64::from(fps)).deviation
     }
 
     #[test]
@@ -239,10 +261,39 @@ mod tests {
     }
 
     #[test]
-    fn turns_of_more_than_half_a_revolution_a_frame_show() {
-        // 200 rad/s at 60 frames a second: 3.33 rad a frame go the other way round.
-        assert!(deviation(200.0, 60).rotation > 1.5);
-        assert!(deviation(200.0, 125).rotation < 1e-12);
+    fn a_body_that_turns_far_from_frame_to_frame_has_keys_between() {
+        // 200 rad/s at 60 frames a second: without them 3.33 rad a frame would go the other way round.
+        let fast = thrown(200.0);
+        let animation = animation(&fast, 60.0);
+        let Keyframes {
+            numbers,
+            orientations,
+            ..
+        } = &animation.bodies[0];
+        assert!(animation.deviation.rotation < 1e-12);
+        assert!((0..=60).all(|frame| numbers.contains(&f64::from(frame))));
+        // 3.33 rad are halved three times.
+        assert!((420..=540).contains(&numbers.len()), "{}", numbers.len());
+        assert!(numbers.windows(2).all(|pair| pair[0] < pair[1]));
+        let turns = orientations.windows(2).map(|q| turn(q[0], q[1]));
+        assert!(turns.fold(0.0, f64::max) < 0.8);
+    }
+
+    #[test]
+    fn a_body_that_turns_little_has_its_frames_only() {
+        for spin in [7.0, 46.0] {
+            let animation = animation(&thrown(spin), 60.0);
+            assert_eq!(animation.bodies[0].numbers.len(), 61, "{spin}");
+        }
+    }
+
+    #[test]
+    fn a_jolt_between_frames_has_a_key() {
+        let mut jolted = thrown(0.0);
+        jolted[0].poses[505].position[2] = 0.5;
+        let animation = animation(&jolted, 60.0);
+        assert!(animation.bodies[0].times.contains(&0.505));
+        assert!(animation.deviation.position < 0.01);
     }
 
     #[test]
@@ -256,28 +307,34 @@ mod tests {
         let keyframes = &animation.bodies[1];
         assert_eq!(keyframes.numbers, [0.0, 1.0, 2.0, 2.5]);
         assert_eq!(keyframes.positions[3], trajectories[1].poses[250].position);
-        let whole = animation.deviation(&trajectories).position;
+        let whole = animation.deviation.position;
         assert!((whole / 0.012_262_5 - 1.0).abs() < 1e-9, "{whole}");
     }
 
     #[test]
-    fn a_motion_that_looks_like_another_asks_for_more_frames() {
-        let warning = |position, rotation| {
-            let deviation = Deviation { position, rotation };
-            deviation.warning(24.0, 0.1)
+    fn where_keys_run_out_there_is_a_warning() {
+        let fast = thrown(200.0);
+        let frames = Frames::of(&fast, 60.0).unwrap();
+        let warning = |spare| {
+            let frames = Frames { spare, ..frames };
+            Animation::new(&fast, &[1.0], frames, |t| t)
+                .unwrap()
+                .compared(&fast, &[1.0])
+                .warning()
         };
-        assert_eq!(warning(0.019, 0.34), None);
-        assert!(warning(0.0, 3.1).is_some_and(|w| w.contains("use --fps 72 or more")));
-        assert!(warning(0.021, 0.0).is_some_and(|w| w.contains("use --fps 48 or more")));
+        assert_eq!(warning(frames.spare), None);
+        assert!(warning(40).is_some_and(|w| w.contains("export fewer bodies")));
     }
 
     #[test]
     fn rounding_is_part_of_it() {
         let trajectories = thrown(1.0);
         let animation = animation(&trajectories, 1000.0);
-        assert!(animation.deviation(&trajectories).position < 1e-14);
-        let coarse = animation.rounded(|x| (100.0 * x).round() / 100.0, |q| q);
-        let position = coarse.deviation(&trajectories).position;
+        assert!(animation.deviation.position < 1e-14);
+        let coarse = animation
+            .rounded(|x| (100.0 * x).round() / 100.0, |q| q)
+            .compared(&trajectories, &[1.0]);
+        let position = coarse.deviation.position;
         assert!((0.004..0.0071).contains(&position), "{position}");
     }
 }

@@ -4,12 +4,14 @@
 //! next to it would only repeat the line between its neighbours and is left out: a table with a long gap
 //! makes no more frames than one without.
 
+use std::borrow::Borrow;
+
 use super::ExportError;
 use crate::track::Track;
 use crate::trajectory::Trajectory;
 
-/// Most frames of an animation, over all its bodies: each takes some hundred bytes.
-const MOST: usize = 10_000_000;
+/// Most frames and keys of an animation, over all its bodies: each takes some hundred bytes.
+pub(super) const MOST: usize = 10_000_000;
 
 /// A last frame closer than this to the one before it, in frames, is the same.
 const SAME: f64 = 1e-6;
@@ -23,17 +25,28 @@ pub(super) struct Frames {
     pub(super) start: f64,
     /// Time of the last pose of any body (s).
     pub(super) end: f64,
+    /// Keys that each body may have beside its frames.
+    pub(super) spare: usize,
 }
 
 impl Frames {
-    pub(super) fn of(trajectories: &[Trajectory], fps: f64) -> Result<Self, ExportError> {
+    pub(super) fn of<T: Borrow<Trajectory>>(
+        trajectories: &[T],
+        fps: f64,
+    ) -> Result<Self, ExportError> {
+        let trajectories: Vec<&Trajectory> = trajectories.iter().map(T::borrow).collect();
         let poses = || trajectories.iter().flat_map(|t| &t.poses);
         let start = poses().map(|p| p.time).fold(f64::INFINITY, f64::min);
         let end = poses().map(|p| p.time).fold(f64::NEG_INFINITY, f64::max);
         if end < start {
             return Err(ExportError::NoBodies);
         }
-        let frames = Self { fps, start, end };
+        let frames = Self {
+            fps,
+            start,
+            end,
+            spare: 0,
+        };
         if !(fps > 0.0 && (end - start) * fps < MOST as f64) {
             return Err(frames.too_many(MOST));
         }
@@ -46,7 +59,8 @@ impl Frames {
                 most: MOST,
             });
         }
-        Ok(frames)
+        let spare = (MOST - all as usize) / trajectories.len();
+        Ok(Self { spare, ..frames })
     }
 
     /// The most frames of a body.
@@ -67,9 +81,8 @@ impl Frames {
 
     /// Numbers of a body's frames: the first, the whole ones next to each of its poses, and its end.
     pub(super) fn of_track(self, track: &Track<'_>) -> Vec<f64> {
-        let number = |time: f64| (time - self.start) * self.fps;
         // Rounding of the end is no frame of its own.
-        let end = number(track.end());
+        let end = self.number(track.end());
         let whole = end.round();
         let end = if (end - whole).abs() <= SAME {
             whole
@@ -79,7 +92,7 @@ impl Frames {
         let mut numbers = vec![0.0];
         let mut last = 0.0;
         for pose in track.poses() {
-            let at = number(pose.time);
+            let at = self.number(pose.time);
             for next in [at.floor(), at.ceil()] {
                 if last < next && next < end {
                     numbers.push(next);
@@ -91,6 +104,11 @@ impl Frames {
             numbers.push(end);
         }
         numbers
+    }
+
+    /// The number that a frame at some time (s) has, whole or not.
+    pub(super) fn number(self, time: f64) -> f64 {
+        (time - self.start) * self.fps
     }
 
     /// The time of a frame (s).
@@ -176,6 +194,9 @@ mod tests {
         for fps in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e12] {
             assert!(frames(1.0, fps).is_err(), "{fps}");
         }
-        assert!(matches!(Frames::of(&[], 60.0), Err(ExportError::NoBodies)));
+        assert!(matches!(
+            Frames::of::<Trajectory>(&[], 60.0),
+            Err(ExportError::NoBodies)
+        ));
     }
 }

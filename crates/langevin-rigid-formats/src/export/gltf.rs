@@ -1,17 +1,25 @@
 //! glTF 2.0 in one binary file: +Y up, metres, seconds, x y z w.
 //!
-//! One mesh that all bodies share, one node a body, one animation; bodies that end together
-//! share their times.
+//! One mesh that all bodies of a kind share, or the meshes of its visual; one node a body, with those of the visual
+//! below it; one animation. Bodies that end together share their times.
 
-use std::collections::HashMap;
+mod looks;
 
-use serde_json::{Value, json};
+use std::collections::{BTreeSet, HashMap};
+
+use serde_json::{Map, Value, json};
 
 use super::animation::{Animation, Keyframes};
 use super::frames::Frames;
-use super::parameters::{KEY, of_body, of_run};
+use super::parameters::{KEY, of_body, of_kind, of_run};
 use super::shading::{COLOUR, corner_normals};
-use super::{Deviation, ExportError, Recording, Up};
+use super::{ExportError, Kind, RecordedBody, Recording, Up};
+use crate::visual::align;
+use crate::visual::references::{List, Lists, MESHOPT};
+use looks::Look;
+
+/// Nodes that a file may have; each takes about a kilobyte until it is written.
+const MOST_NODES: usize = 1_000_000;
 
 /// Frames that single precision can tell apart.
 const SINGLES: usize = 1 << 24;
@@ -21,46 +29,80 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// The bytes of the file, and how far the animation strays.
+/// The bytes of the file, and the animation in it.
 pub(super) fn glb(
     recording: &Recording<'_>,
     fps: f64,
-) -> Result<(Vec<u8>, Deviation), ExportError> {
-    let frames = Frames::of(recording.trajectories, fps)?;
-    let animation = Animation::new(recording.trajectories, frames, single)?.rounded(single, single);
+) -> Result<(Vec<u8>, Animation), ExportError> {
+    let trajectories = recording.trajectories(Up::Y);
+    let frames = Frames::of(&trajectories, fps)?;
+    let lengths = recording.lengths();
+    let animation = Animation::new(&trajectories, &lengths, frames, single)?
+        .rounded(single, single)
+        .compared(&trajectories, &lengths);
     let apart = |keyframes: &Keyframes| keyframes.times.windows(2).all(|pair| pair[0] < pair[1]);
     if !animation.bodies.iter().all(apart) {
         return Err(frames.too_many(SINGLES));
     }
-    let deviation = animation.deviation(recording.trajectories);
+    check_nodes(recording)?;
     let mut file = File::default();
-    let mesh = file.mesh(recording);
+    let shapes: Vec<Shape<'_>> = recording
+        .kinds
+        .iter()
+        .map(|kind| match kind.visual {
+            Some(visual) => Shape::Look(file.look(visual)),
+            None => Shape::Mesh(file.mesh(recording, kind)),
+        })
+        .collect();
     let animations = file.animation(recording.conditions.scene, &animation);
-    let [red, green, blue] = COLOUR;
-    let document = json!({
+    let mut run = of_run(recording, Up::Y, fps, animation.deviation);
+    let dressed = recording.kinds.iter().filter(|kind| kind.visual.is_some());
+    let dressed: Map<String, Value> = dressed
+        .map(|kind| (kind.name.to_owned(), of_kind(recording, kind).into()))
+        .collect();
+    if !dressed.is_empty() {
+        run.insert("kinds".to_owned(), dressed.into());
+    }
+    let mut document = json!({
         "asset": { "version": "2.0", "generator": concat!("Langevin Rigid ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
         "scenes": [{
             "name": recording.conditions.scene,
             "nodes": (0..animation.bodies.len()).collect::<Vec<_>>(),
-            "extras": { KEY: of_run(recording, Up::Y, fps, deviation) },
+            "extras": { KEY: run },
         }],
-        "nodes": nodes(recording.conditions.scene, &animation.bodies),
-        "meshes": [mesh],
-        "materials": [{
-            "name": "matt",
-            "pbrMetallicRoughness": {
-                "baseColorFactor": [red, green, blue, 1.0],
-                "metallicFactor": 0.0,
-                "roughnessFactor": 0.8,
-            },
-        }],
+        "nodes": nodes(recording, &shapes, &animation.bodies),
         "animations": [animations],
-        "accessors": file.accessors,
-        "bufferViews": file.views,
-        "buffers": [{ "byteLength": file.bytes.len() }],
     });
-    Ok((container(&document, &file.bytes)?, deviation))
+    let binary = file.finish(&mut document);
+    Ok((container(&document, &binary)?, animation))
+}
+
+/// Refuses more nodes than fit into memory.
+fn check_nodes(recording: &Recording<'_>) -> Result<(), ExportError> {
+    let of_body = |body: &RecordedBody<'_>| {
+        let visual = recording.kind_of(body).visual;
+        1 + visual.map_or(0, |visual| 1 + visual.part.nodes.len())
+    };
+    let bodies = recording.bodies;
+    let nodes = bodies.iter().map(of_body).fold(0, usize::saturating_add);
+    // Bodies alone have been counted by their frames.
+    match nodes > MOST_NODES.max(bodies.len()) {
+        true => Err(ExportError::TooManyNodes {
+            nodes,
+            bodies: bodies.len(),
+            most: MOST_NODES,
+        }),
+        false => Ok(()),
+    }
+}
+
+/// What bodies of a kind show.
+enum Shape<'a> {
+    /// A mesh, by its number.
+    Mesh(usize),
+    /// The nodes of a visual.
+    Look(Look<'a>),
 }
 
 /// To single precision and back.
@@ -68,48 +110,112 @@ fn single(x: f64) -> f64 {
     f64::from(x as f32)
 }
 
-fn nodes(name: &str, bodies: &[Keyframes]) -> Vec<Value> {
-    let node = |keyframes: &Keyframes| {
-        let name = match bodies.len() {
-            1 => name.to_owned(),
-            _ => format!("{name}.{:04}", keyframes.body),
-        };
-        json!({
-            "name": name,
-            "mesh": 0,
+/// Nodes of the bodies, and after them those of their visuals.
+fn nodes(recording: &Recording<'_>, shapes: &[Shape<'_>], keyframes: &[Keyframes]) -> Vec<Value> {
+    let node = |(body, keyframes): (&RecordedBody<'_>, &Keyframes)| {
+        let name = recording.kind_of(body).name;
+        let mut node = json!({
+            "name": match recording.bodies.len() {
+                1 => name.to_owned(),
+                _ => format!("{name}.{:04}", keyframes.body),
+            },
             "translation": keyframes.positions[0],
             "rotation": keyframes.orientations[0],
-            "extras": { KEY: { "body": keyframes.body } },
-        })
+            "extras": { KEY: of_body(recording, body) },
+        });
+        if body.scale != 1.0 {
+            node["scale"] = vec![body.scale; 3].into();
+        }
+        node
     };
-    bodies.iter().map(node).collect()
+    let mut nodes: Vec<Value> = recording.bodies.iter().zip(keyframes).map(node).collect();
+    for (number, body) in recording.bodies.iter().enumerate() {
+        match &shapes[body.kind] {
+            Shape::Mesh(mesh) => nodes[number]["mesh"] = (*mesh).into(),
+            Shape::Look(look) => look.hang(number, &mut nodes),
+        }
+    }
+    nodes
 }
 
 /// What the document points into.
 #[derive(Default)]
 struct File {
     bytes: Vec<u8>,
-    views: Vec<Value>,
-    accessors: Vec<Value>,
+    lists: Lists,
+    /// Bytes of what is compressed by meshoptimizer, once it is not.
+    decompressed: usize,
+    used: BTreeSet<String>,
+    required: BTreeSet<String>,
+    /// The material of surfaces.
+    matt: Option<usize>,
 }
 
 impl File {
-    fn mesh(&mut self, recording: &Recording<'_>) -> Value {
-        let surface = &recording.bake.body.surface;
+    /// Puts all lists into the document, and gives the bytes of its buffer.
+    fn finish(self, document: &mut Value) -> Vec<u8> {
+        let mut lists = self.lists;
+        for list in List::ALL {
+            let members = std::mem::take(&mut lists[list]);
+            if !members.is_empty() {
+                document[list.key()] = members.into();
+            }
+        }
+        let mut buffers = vec![json!({ "byteLength": self.bytes.len() })];
+        if self.decompressed > 0 {
+            let fallback = json!({ "fallback": true });
+            let names = self.used.iter().filter(|n| MESHOPT.contains(&n.as_str()));
+            let extensions: Map<String, Value> =
+                names.map(|name| (name.clone(), fallback.clone())).collect();
+            buffers.push(json!({ "byteLength": self.decompressed, "extensions": extensions }));
+        }
+        document["buffers"] = buffers.into();
+        let names = [
+            ("extensionsUsed", self.used),
+            ("extensionsRequired", self.required),
+        ];
+        for (key, names) in names.into_iter().filter(|(_, names)| !names.is_empty()) {
+            document[key] = names.into_iter().collect::<Vec<_>>().into();
+        }
+        self.bytes
+    }
+
+    /// The number of the material of surfaces.
+    fn matt(&mut self) -> usize {
+        let materials = &mut self.lists[List::Materials];
+        *self.matt.get_or_insert_with(|| {
+            let [red, green, blue] = COLOUR;
+            materials.push(json!({
+                "name": "matt",
+                "pbrMetallicRoughness": {
+                    "baseColorFactor": [red, green, blue, 1.0],
+                    "metallicFactor": 0.0,
+                    "roughnessFactor": 0.8,
+                },
+            }));
+            materials.len() - 1
+        })
+    }
+
+    /// The number of a kind's mesh.
+    fn mesh(&mut self, recording: &Recording<'_>, kind: &Kind<'_>) -> usize {
+        let surface = &kind.bake.body.surface;
         let corners = split_at_edges(&surface.vertices, &surface.triangles);
         let positions = self.vectors(&corners.positions, Some(ARRAY_BUFFER));
         self.bounds(positions, &corners.positions);
         let normals = self.vectors(&corners.normals, Some(ARRAY_BUFFER));
         let indices = self.indices(&corners.triangles);
-        json!({
-            "name": recording.conditions.scene,
+        let material = self.matt();
+        self.lists[List::Meshes].push(json!({
+            "name": kind.name,
             "primitives": [{
                 "attributes": { "POSITION": positions, "NORMAL": normals },
                 "indices": indices,
-                "material": 0,
+                "material": material,
             }],
-            "extras": { KEY: of_body(recording) },
-        })
+            "extras": { KEY: of_kind(recording, kind) },
+        }));
+        self.lists[List::Meshes].len() - 1
     }
 
     fn animation(&mut self, name: &str, animation: &Animation) -> Value {
@@ -146,7 +252,7 @@ impl File {
 
     /// An accessor of single-precision numbers, with its view.
     fn vectors<const N: usize>(&mut self, vectors: &[[f64; N]], target: Option<u32>) -> usize {
-        let start = self.bytes.len();
+        let start = align(&mut self.bytes);
         self.bytes.reserve(4 * N * vectors.len());
         for x in vectors.as_flattened() {
             self.bytes.extend((*x as f32).to_le_bytes());
@@ -161,7 +267,7 @@ impl File {
     }
 
     fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
-        let start = self.bytes.len();
+        let start = align(&mut self.bytes);
         for v in triangles.as_flattened() {
             self.bytes.extend(v.to_le_bytes());
         }
@@ -176,18 +282,20 @@ impl File {
         if let Some(target) = target {
             view["target"] = target.into();
         }
-        self.views.push(view);
+        self.lists[List::BufferViews].push(view);
     }
 
     /// An accessor of all of the last view.
     fn accessor(&mut self, component: u32, count: usize, kind: &str) -> usize {
-        self.accessors.push(json!({
-            "bufferView": self.views.len() - 1,
+        let view = self.lists[List::BufferViews].len() - 1;
+        let accessors = &mut self.lists[List::Accessors];
+        accessors.push(json!({
+            "bufferView": view,
             "componentType": component,
             "count": count,
             "type": kind,
         }));
-        self.accessors.len() - 1
+        accessors.len() - 1
     }
 
     /// Says between which numbers an accessor's are, as positions and times must.
@@ -196,8 +304,8 @@ impl File {
             let component = |i: usize| vectors.iter().map(|v| single(v[i])).fold(start, f);
             (0..N).map(component).collect()
         };
-        self.accessors[accessor]["min"] = bound(f64::min, f64::INFINITY).into();
-        self.accessors[accessor]["max"] = bound(f64::max, f64::NEG_INFINITY).into();
+        self.lists[List::Accessors][accessor]["min"] = bound(f64::min, f64::INFINITY).into();
+        self.lists[List::Accessors][accessor]["max"] = bound(f64::max, f64::NEG_INFINITY).into();
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Deviation, Recording, Up};
+use super::{Deviation, Kind, RecordedBody, Recording, Up};
 
 /// The key under which all of it stands.
 pub(super) const KEY: &str = "langevin_rigid";
@@ -22,7 +22,7 @@ pub(super) fn of_run(
         "integrator": made.settings.integrator.to_string(),
         "turbulence": made.settings.turbulence.to_string(),
         "seed": made.seed.to_string(),
-        "bodies": recording.trajectories.len(),
+        "bodies": recording.bodies.len(),
         "time_step_s": made.time_step,
         "gravity_m_s2": up.vector(made.settings.gravity),
         "fluid_density_kg_m3": made.fluid.density,
@@ -34,9 +34,9 @@ pub(super) fn of_run(
     }))
 }
 
-/// The body, in its own frame; matrices row by row, linear part first.
-pub(super) fn of_body(recording: &Recording<'_>) -> Map<String, Value> {
-    let (body, density) = (&recording.bake.body, recording.conditions.fluid.density);
+/// A body of scale one, in its own frame; matrices row by row, linear part first.
+pub(super) fn of_kind(recording: &Recording<'_>, kind: &Kind<'_>) -> Map<String, Value> {
+    let (body, density) = (&kind.bake.body, recording.conditions.fluid.density);
     let added_mass: Vec<f64> = body
         .added_mass
         .as_flattened()
@@ -50,8 +50,21 @@ pub(super) fn of_body(recording: &Recording<'_>) -> Map<String, Value> {
         "centre_of_buoyancy_m": body.centre_of_buoyancy,
         "half_extents_m": body.half_extents,
         "added_mass_kg": added_mass,
-        "added_mass_error_estimate": recording.bake.error_estimate,
+        "added_mass_error_estimate": kind.bake.error_estimate,
     }))
+}
+
+/// Which body it is; of bodies that differ, also its kind and size.
+pub(super) fn of_body(recording: &Recording<'_>, body: &RecordedBody<'_>) -> Map<String, Value> {
+    let number = body.trajectory.body;
+    object(match recording.is_uniform() {
+        true => json!({ "body": number }),
+        false => json!({
+            "body": number,
+            "kind": recording.kind_of(body).name,
+            "scale": body.scale,
+        }),
+    })
 }
 
 fn object(value: Value) -> Map<String, Value> {

@@ -1,5 +1,6 @@
 //! Apache Parquet: the columns of the CSV table, typed.
 
+use std::borrow::Borrow;
 use std::io::{self, Write};
 use std::sync::Arc;
 
@@ -17,11 +18,14 @@ use crate::trajectory::{CSV_HEADER, Trajectory};
 
 /// One row for each pose of each body, one row group a body; `body` is an unsigned integer, the others are
 /// doubles.
-pub(super) fn write(trajectories: &[Trajectory], out: impl Write + Send) -> io::Result<()> {
+pub(super) fn write<T: Borrow<Trajectory>>(
+    trajectories: &[T],
+    out: impl Write + Send,
+) -> io::Result<()> {
     write_file(trajectories, out).map_err(io::Error::other)
 }
 
-fn write_file(trajectories: &[Trajectory], out: impl Write + Send) -> Result<()> {
+fn write_file<T: Borrow<Trajectory>>(trajectories: &[T], out: impl Write + Send) -> Result<()> {
     let units = KeyValue::new(
         "langevin_rigid".to_owned(),
         "world frame; SI units; quaternions x, y, z, w from body to world".to_owned(),
@@ -36,7 +40,7 @@ fn write_file(trajectories: &[Trajectory], out: impl Write + Send) -> Result<()>
     let mut file = SerializedFileWriter::new(out, schema()?, Arc::new(properties))?;
     for trajectory in trajectories {
         let mut group = file.next_row_group()?;
-        body_rows(trajectory, &mut group)?;
+        body_rows(trajectory.borrow(), &mut group)?;
         group.close()?;
     }
     file.close()?;

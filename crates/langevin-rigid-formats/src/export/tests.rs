@@ -5,13 +5,14 @@ use std::path::Path;
 
 use langevin_rigid::linalg::vector::{cross, dot};
 use langevin_rigid::linalg::{quat_from_rotation_vector, rotate, rotate_back};
-use langevin_rigid::{Bake, State};
+use langevin_rigid::{Bake, Fluid, Settings, State};
 use langevin_rigid_bake::body::{BodySpec, bake_body};
 use langevin_rigid_bake::shapes::Shape;
 use serde_json::Value;
 
 use super::*;
 use crate::mesh::{LengthUnit, read_mesh};
+use crate::trajectory::Trajectory;
 
 fn brick() -> Bake {
     let mesh = Shape::Box {
@@ -157,14 +158,15 @@ fn measured(glb: &Glb, number: usize, trajectory: &Trajectory) -> Deviation {
     worst
 }
 
-/// Writes trajectories of the brick in one format, into a folder that goes away with the result.
-fn written(
-    trajectories: &[Trajectory],
-    format: Format,
-    fps: f64,
-) -> Result<(tempfile::TempDir, Option<Deviation>), ExportError> {
+/// A recording of bodies of two kinds at most, to work with.
+pub(super) fn recorded<R>(
+    bodies: &[RecordedBody<'_>],
+    work: impl FnOnce(&Recording<'_>) -> R,
+) -> R {
     let bake = brick();
-    let recording = Recording {
+    let kinds = ["brick-7", "\"long\", brick"].map(|name| Kind::new(name, &bake));
+    let several = bodies.iter().any(|body| body.kind > 0);
+    work(&Recording {
         conditions: Conditions {
             scene: "brick-7",
             fluid: &Fluid::WATER,
@@ -172,19 +174,28 @@ fn written(
             seed: 3,
             time_step: 0.002,
         },
-        bake: &bake,
-        trajectories,
-    };
+        kinds: if several { &kinds } else { &kinds[..1] },
+        bodies,
+    })
+}
+
+/// Writes trajectories of the brick in one format, into a folder that goes away with the result.
+fn written(
+    trajectories: &[Trajectory],
+    format: Format,
+    fps: f64,
+) -> Result<(tempfile::TempDir, Option<Deviation>), ExportError> {
+    let bodies: Vec<RecordedBody<'_>> = trajectories.iter().map(RecordedBody::from).collect();
     let options = Options {
         fps,
         ..Options::default()
     };
     let folder = tempfile::tempdir().unwrap();
-    let deviation = write(&recording, format, folder.path(), &options);
-    if deviation.is_err() {
+    let written = recorded(&bodies, |run| write(run, format, folder.path(), &options));
+    if written.is_err() {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
-    Ok((folder, deviation?))
+    Ok((folder, written?.deviation))
 }
 
 #[test]
@@ -298,7 +309,12 @@ fn a_thousand_bodies_fit_into_sixty_megabytes() {
 fn arrays_read_back_to_the_last_bit() {
     let trajectories = [tumbling(0, 0.1, 100), tumbling(4, 0.05, 100)];
     let mut bytes = std::io::Cursor::new(Vec::new());
-    npz::write(&trajectories, &mut bytes).unwrap();
+    let bodies = [0, 1].map(|n| RecordedBody {
+        kind: 1 - n,
+        scale: 1.3,
+        trajectory: &trajectories[n],
+    });
+    recorded(&bodies, |run| npz::write(run, Up::Y, &mut bytes)).unwrap();
     let mut archive = zip::ZipArchive::new(bytes).unwrap();
     let mut array = |name: &str| {
         let file = archive.by_name(&format!("{name}.npy")).unwrap();
@@ -313,6 +329,19 @@ fn arrays_read_back_to_the_last_bit() {
     let file = archive.by_name("body.npy").unwrap();
     let bodies = npyz::NpyFile::new(file).unwrap().into_vec::<u32>().unwrap();
     assert_eq!(bodies[10..12], [0, 4]);
+    // A row for each body.
+    let file = archive.by_name("kind.npy").unwrap();
+    let kinds = npyz::NpyFile::new(file)
+        .unwrap()
+        .into_vec::<String>()
+        .unwrap();
+    assert_eq!(kinds, ["\"long\", brick", "brick-7"]);
+    let file = archive.by_name("scale.npy").unwrap();
+    let scales = npyz::NpyFile::new(file).unwrap().into_vec::<f64>().unwrap();
+    assert_eq!(scales, [1.3, 1.3]);
+    let file = archive.by_name("bodies.npy").unwrap();
+    let bodies = npyz::NpyFile::new(file).unwrap().into_vec::<u32>().unwrap();
+    assert_eq!(bodies, [0, 4]);
 }
 
 #[test]
@@ -328,4 +357,83 @@ fn what_cannot_be_shown_says_why() {
     let mut bad = tumbling(7, 1.0, 10);
     bad.poses[3].position[1] = f64::NAN;
     assert!(fails(&[bad], 60.0).starts_with("body 7: pose 3 is no placement"));
+}
+
+/// A brick of scale one and one of another kind, twice as large.
+#[test]
+fn bodies_have_kinds_and_sizes() {
+    let trajectories = [tumbling(0, 0.2, 100), tumbling(1, 0.2, 100)];
+    let bodies = [(0, 1.0), (1, 2.0)];
+    let bodies: Vec<RecordedBody<'_>> = bodies
+        .into_iter()
+        .zip(&trajectories)
+        .map(|((kind, scale), trajectory)| RecordedBody {
+            kind,
+            scale,
+            trajectory,
+        })
+        .collect();
+    let folder = tempfile::tempdir().unwrap();
+    let write = |format| {
+        let options = Options::default();
+        recorded(&bodies, |run| write(run, format, folder.path(), &options)).unwrap()
+    };
+
+    assert_eq!(write(Format::Csv).files, ["trajectory.csv", "bodies.csv"]);
+    let table = std::fs::read_to_string(folder.path().join("bodies.csv")).unwrap();
+    assert_eq!(
+        table,
+        "body,kind,scale\n0,brick-7,1\n1,\"\"\"long\"\", brick\",2\n"
+    );
+
+    assert_eq!(write(Format::Glb).files, ["trajectory.glb"]);
+    let path = folder.path().join("trajectory.glb");
+    let Glb { document, .. } = Glb::read(&path);
+    assert_eq!(document["meshes"].as_array().unwrap().len(), 2);
+    let [small, large] = [0, 1].map(|n| &document["nodes"][n]);
+    assert_eq!(small["scale"], Value::Null);
+    assert_eq!(large["scale"], serde_json::json!([2.0, 2.0, 2.0]));
+    assert_eq!(large["mesh"], 1);
+    assert_eq!(large["extras"]["langevin_rigid"]["scale"], 2.0);
+    let volume = read_mesh(&path, Some(LengthUnit::M)).unwrap().body();
+    let one = brick().body.volume;
+    assert!((volume.unwrap().volume() / (9.0 * one) - 1.0).abs() < 1e-6);
+
+    write(Format::Usd);
+    let layer = std::fs::read_to_string(folder.path().join("trajectory.usda")).unwrap();
+    for line in [
+        "        class Xform \"brick_7_0\" (",
+        "        class Xform \"__long___brick_1\" (",
+        "references = </World/Shapes/__long___brick_1>",
+        "def Xform \"__long___brick_1\" (",
+        "double3 xformOp:scale = (2, 2, 2)",
+        "[\"xformOp:translate\", \"xformOp:orient\", \"xformOp:scale\"]",
+    ] {
+        assert!(layer.contains(line), "{line}");
+    }
+}
+
+#[test]
+fn impossible_bodies_are_refused() {
+    let trajectory = tumbling(3, 0.1, 100);
+    let fails = |kind, scale| {
+        let body = RecordedBody {
+            kind,
+            scale,
+            trajectory: &trajectory,
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let options = Options::default();
+        let written = recorded(&[body], |run| {
+            write(run, Format::Csv, folder.path(), &options)
+        });
+        written.unwrap_err().to_string()
+    };
+    assert!(fails(2, 1.0).starts_with("body 3 is of kind 2, and there are 2 kinds"));
+    for scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(
+            fails(0, scale).contains("give a positive number"),
+            "{scale}"
+        );
+    }
 }

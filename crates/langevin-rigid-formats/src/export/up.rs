@@ -37,11 +37,11 @@ impl Up {
         }
     }
 
-    /// Trajectories of the +Y-up world in this one.
-    pub(super) fn of(self, trajectories: &[Trajectory]) -> Cow<'_, [Trajectory]> {
+    /// A trajectory of the +Y-up world in this one.
+    pub(super) fn of(self, trajectory: &Trajectory) -> Cow<'_, Trajectory> {
         match self {
-            Self::Y => Cow::Borrowed(trajectories),
-            Self::Z => Cow::Owned(trajectories.iter().map(|t| self.trajectory(t)).collect()),
+            Self::Y => Cow::Borrowed(trajectory),
+            Self::Z => Cow::Owned(self.trajectory(trajectory)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! OpenUSD as text: metres, seconds, quaternions w x y z.
 //!
-//! One shape that all bodies reference, one transform a body with samples of translation and orientation.
+//! One shape a kind, which its bodies reference; one transform a body with samples of translation and orientation.
 
 use std::fmt::{Display, Write as _};
 use std::io;
@@ -10,9 +10,9 @@ use serde_json::{Map, Value};
 
 use super::animation::{Animation, Keyframes};
 use super::frames::Frames;
-use super::parameters::{KEY, of_body, of_run};
+use super::parameters::{KEY, of_body, of_kind, of_run};
 use super::shading::{COLOUR, corner_normals};
-use super::{Deviation, ExportError, Options, Recording};
+use super::{ExportError, Kind, Options, RecordedBody, Recording};
 
 /// Decimals of quaternions.
 const TURN_DECIMALS: i32 = 7;
@@ -28,8 +28,7 @@ pub(super) struct Layer<'a> {
     recording: &'a Recording<'a>,
     options: Options,
     frames: Frames,
-    animation: Animation,
-    pub(super) deviation: Deviation,
+    pub(super) animation: Animation,
     /// Decimals of positions.
     decimals: i32,
 }
@@ -39,28 +38,31 @@ impl<'a> Layer<'a> {
         recording: &'a Recording<'a>,
         options: &Options,
     ) -> Result<Self, ExportError> {
-        let trajectories = options.up.of(recording.trajectories);
+        let trajectories = recording.trajectories(options.up);
         let frames = Frames::of(&trajectories, options.fps)?;
-        let size = recording.bake.body.half_extents[0];
+        let lengths = recording.lengths();
+        let size = 0.5 * lengths.iter().copied().fold(f64::INFINITY, f64::min);
         let decimals = (-libm::log10(FINE * size)).ceil().clamp(6.0, 15.0) as i32;
-        let animation = Animation::new(&trajectories, frames, |time| time)?
-            .rounded(rounding(decimals), rounding(TURN_DECIMALS));
+        let animation = Animation::new(&trajectories, &lengths, frames, |time| time)?
+            .rounded(rounding(decimals), rounding(TURN_DECIMALS))
+            .compared(&trajectories, &lengths);
         Ok(Self {
             recording,
             options: *options,
             frames,
-            deviation: animation.deviation(&trajectories),
             animation,
             decimals,
         })
     }
 
     pub(super) fn write(&self, out: &mut impl io::Write) -> io::Result<()> {
-        write!(out, "{}{}", self.head(), self.shape())?;
-        for batch in self.animation.bodies.chunks(BATCH) {
-            let bodies: Vec<String> = batch
+        write!(out, "{}{}", self.head(), self.shapes())?;
+        let (bodies, keyframes) = (self.recording.bodies, &self.animation.bodies);
+        for (bodies, keyframes) in bodies.chunks(BATCH).zip(keyframes.chunks(BATCH)) {
+            let bodies: Vec<String> = bodies
                 .par_iter()
-                .map(|keyframes| self.body(keyframes))
+                .zip(keyframes)
+                .map(|(body, keyframes)| self.body(body, keyframes))
                 .collect();
             bodies
                 .iter()
@@ -75,7 +77,12 @@ impl<'a> Layer<'a> {
         let ends = self.animation.bodies.iter().flat_map(|t| t.numbers.last());
         let first = fps * start;
         let last = first + ends.fold(0.0, |last: f64, end| last.max(*end));
-        let run = of_run(self.recording, self.options.up, fps, self.deviation);
+        let run = of_run(
+            self.recording,
+            self.options.up,
+            fps,
+            self.animation.deviation,
+        );
         format!(
             "#usda 1.0\n(\n    \
              defaultPrim = \"World\"\n    \
@@ -95,55 +102,82 @@ impl<'a> Layer<'a> {
         )
     }
 
-    /// The surface that the bodies share: a class, which is seen only where it is referenced.
-    fn shape(&self) -> String {
-        let surface = &self.recording.bake.body.surface;
+    /// The surface of each kind: a class, which is seen only where it is referenced.
+    fn shapes(&self) -> String {
+        if let [kind] = self.recording.kinds {
+            return self.shape("Shape", kind, 1);
+        }
+        let kinds = self.recording.kinds.iter().enumerate();
+        let shapes: String = kinds
+            .map(|(number, kind)| self.shape(&shape_name(number, kind), kind, 2))
+            .collect();
+        format!("    class Scope \"Shapes\"\n    {{\n{shapes}    }}\n")
+    }
+
+    /// The path of what a body references.
+    fn shape_of(&self, body: &RecordedBody<'_>) -> String {
+        match self.recording.kinds {
+            [_] => "/World/Shape".to_owned(),
+            kinds => {
+                let name = shape_name(body.kind, &kinds[body.kind]);
+                format!("/World/Shapes/{name}")
+            }
+        }
+    }
+
+    /// The surface of a kind, `depth` levels in.
+    fn shape(&self, name: &str, kind: &Kind<'_>, depth: usize) -> String {
+        let surface = &kind.bake.body.surface;
         let used = surface.triangles.as_flattened().iter().max();
         let count = used.map_or(0, |v| *v as usize + 1);
         let vertices = &surface.vertices[..count];
         let normals = corner_normals(vertices, &surface.triangles);
         let extent = bounds(vertices);
-        format!(
-            "    class Xform \"Shape\" (\n{data}    )\n    {{\n        \
-             def Mesh \"{name}\"\n        {{\n            \
-             uniform bool doubleSided = 0\n            \
-             float3[] extent = {extent}\n            \
-             int[] faceVertexCounts = {counts}\n            \
-             int[] faceVertexIndices = {indices}\n            \
-             normal3f[] normals = {normals} (\n                interpolation = \"faceVarying\"\n            )\n            \
-             uniform token orientation = \"rightHanded\"\n            \
-             point3f[] points = {points}\n            \
-             color3f[] primvars:displayColor = [{colour}]\n            \
-             uniform token subdivisionScheme = \"none\"\n        }}\n    }}\n",
-            name = identifier(self.recording.conditions.scene),
-            data = custom_data(&of_body(self.recording), 2),
+        let indent = "    ".repeat(depth);
+        let text = format!(
+            "class Xform \"{name}\" (\n{data})\n{{\n    \
+             def Mesh \"{mesh}\"\n    {{\n        \
+             uniform bool doubleSided = 0\n        \
+             float3[] extent = {extent}\n        \
+             int[] faceVertexCounts = {counts}\n        \
+             int[] faceVertexIndices = {indices}\n        \
+             normal3f[] normals = {normals} (\n            interpolation = \"faceVarying\"\n        )\n        \
+             uniform token orientation = \"rightHanded\"\n        \
+             point3f[] points = {points}\n        \
+             color3f[] primvars:displayColor = [{colour}]\n        \
+             uniform token subdivisionScheme = \"none\"\n    }}\n}}\n",
+            mesh = identifier(kind.name),
+            data = custom_data(&of_kind(self.recording, kind), 1),
             colour = tuple(&COLOUR),
             extent = list(extent.iter().map(|v| tuple(&v.map(single)))),
             counts = list(surface.triangles.iter().map(|_| 3)),
             indices = list(surface.triangles.as_flattened()),
             normals = list(normals.as_flattened().iter().map(|v| tuple(&v.map(single)))),
             points = list(vertices.iter().map(|v| tuple(&v.map(single)))),
-        )
+        );
+        text.lines()
+            .map(|line| format!("{indent}{line}\n"))
+            .collect()
     }
 
-    fn body(&self, keyframes: &Keyframes) -> String {
+    fn body(&self, body: &RecordedBody<'_>, keyframes: &Keyframes) -> String {
         let mut text = String::with_capacity(128 * keyframes.positions.len());
-        let name = identifier(self.recording.conditions.scene);
+        let name = identifier(self.recording.kind_of(body).name);
         let (metres, turns) = (self.decimals as usize, TURN_DECIMALS as usize);
         let first = self.frames.fps * self.frames.start;
         let codes = || keyframes.numbers.iter().map(|number| first + number);
         // Writing to a string cannot fail.
         let _ = write!(
             text,
-            "\n    def Xform \"{name}_{body}\" (\n        \
-             customData = {{\n            dictionary {KEY} = {{\n                \
-             int body = {body}\n            }}\n        }}\n        \
+            "\n    def Xform \"{name}_{number}\" (\n{data}        \
              instanceable = {several}\n        \
-             references = </World/Shape>\n    )\n    {{\n        \
+             references = <{shape}>\n    )\n    {{\n        \
              double3 xformOp:translate.timeSamples = {{",
-            body = keyframes.body,
+            number = keyframes.body,
+            data = custom_data(&of_body(self.recording, body), 2),
             // Programs show an instance as a whole; one body alone is a mesh like any other.
             several = self.animation.bodies.len() > 1,
+            shape = self.shape_of(body),
         );
         for (code, [x, y, z]) in codes().zip(&keyframes.positions) {
             let _ = write!(text, "{code}:({x:.metres$},{y:.metres$},{z:.metres$}),");
@@ -155,11 +189,25 @@ impl<'a> Layer<'a> {
                 "{code}:({w:.turns$},{x:.turns$},{y:.turns$},{z:.turns$}),"
             );
         }
-        text.push_str(
-            "}\n        uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]\n    }\n",
+        text.push_str("}\n");
+        let mut order = vec!["\"xformOp:translate\"", "\"xformOp:orient\""];
+        if body.scale != 1.0 {
+            let scale = tuple(&[body.scale; 3]);
+            let _ = writeln!(text, "        double3 xformOp:scale = {scale}");
+            order.push("\"xformOp:scale\"");
+        }
+        let _ = writeln!(
+            text,
+            "        uniform token[] xformOpOrder = {}\n    }}",
+            list(order)
         );
         text
     }
+}
+
+/// A kind's prim, which no other kind's is called.
+fn shape_name(number: usize, kind: &Kind<'_>) -> String {
+    format!("{}_{number}", identifier(kind.name))
 }
 
 /// To so many decimals, as they are printed.

@@ -65,9 +65,23 @@ pub enum ParseError {
         /// Why not.
         reason: String,
     },
+    /// An image of a glTF file cannot be had.
+    #[error(
+        "its image `{uri}` cannot be read ({reason}): keep the file's images beside it, or export a single .glb file"
+    )]
+    Image {
+        /// The image's address in the file, shortened.
+        uri: String,
+        /// Why not.
+        reason: String,
+    },
 }
 
 impl ParseError {
+    pub(crate) fn damaged(reason: impl Into<String>) -> ParseError {
+        ParseError::at(Place::File, reason)
+    }
+
     pub(super) fn at(place: Place, reason: impl Into<String>) -> ParseError {
         ParseError::Malformed {
             place,

@@ -17,7 +17,7 @@ mod node;
 mod skin;
 mod surface;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod version;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -61,8 +61,54 @@ pub(super) fn parse(
     Ok(mesh)
 }
 
-/// Reads a binary file: a header and two chunks, JSON and buffer.
+/// Reads a binary file.
 pub(super) fn parse_glb(bytes: &[u8], folder: Option<&Path>) -> Result<RawMesh, ParseError> {
+    let (json, chunk) = chunks(bytes)?;
+    parse(json, chunk, folder)
+}
+
+/// Checks that a file has triangles to show, all of them sound and none with a skin; gives the nodes at the top of its scene, below
+/// which is a tree.
+pub(crate) fn check(
+    json: &[u8],
+    chunk: Option<&[u8]>,
+    folder: Option<&Path>,
+) -> Result<Vec<usize>, ParseError> {
+    let document: Document =
+        serde_json::from_slice(json).map_err(|error| version::fault(json, &error))?;
+    if document.nodes.iter().any(|node| node.skin.is_some()) {
+        return Err(ParseError::Unsupported {
+            feature: "a skin".to_owned(),
+            remedy: "apply the armature to the mesh, and export it again without one",
+        });
+    }
+    if parse(json, chunk, folder)?.triangles.is_empty() {
+        return Err(ParseError::NoTriangles);
+    }
+    document.roots()
+}
+
+/// The bytes that a document names: embedded as base64, or the first of a file in the folder, all by default.
+pub(crate) fn resource(
+    uri: &str,
+    length: Option<usize>,
+    folder: Option<&Path>,
+) -> Result<Vec<u8>, String> {
+    match uri.strip_prefix("data:") {
+        Some(data) => base64::embedded(data).ok_or_else(|| "its base64 text is broken".to_owned()),
+        None => beside::read(uri, length, folder),
+    }
+}
+
+/// The address of a buffer or an image, short enough for a message.
+pub(crate) fn shortened(uri: Option<&str>) -> String {
+    uri.map_or("(binary chunk)".to_owned(), |uri| {
+        uri.chars().take(60).collect()
+    })
+}
+
+/// Splits a binary file, a header and two chunks: JSON, and the buffer if there is one.
+pub(crate) fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ParseError> {
     let word = |at: usize| {
         let bytes = bytes.get(at..)?.first_chunk::<4>()?;
         Some(u32::from_le_bytes(*bytes))
@@ -84,7 +130,7 @@ pub(super) fn parse_glb(bytes: &[u8], folder: Option<&Path>) -> Result<RawMesh, 
     };
     let broken = || ParseError::at(Place::Byte(12), "the JSON chunk is missing or cut short");
     let json = chunk(12, b"JSON").ok_or_else(broken)?;
-    parse(json, chunk(20 + json.len(), b"BIN\0"), folder)
+    Ok((json, chunk(20 + json.len(), b"BIN\0")))
 }
 
 /// The element of a list the file refers to by number.

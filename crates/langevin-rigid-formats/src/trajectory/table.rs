@@ -1,5 +1,6 @@
 //! Trajectories as comma-separated values.
 
+use std::borrow::Borrow;
 use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::io;
@@ -31,6 +32,12 @@ pub enum TableError {
     /// The first line is another.
     #[error("line 1: the columns are not those of a trajectory ({CSV_HEADER})")]
     Header,
+    /// The first line of another table is another.
+    #[error("line 1: the columns are not those of this table ({columns})")]
+    Columns {
+        /// What they should be.
+        columns: &'static str,
+    },
     /// A line cannot be read.
     #[error("line {line}: {reason}; the table is damaged or was edited, run the scene again")]
     Line {
@@ -68,9 +75,13 @@ pub enum TableError {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_csv(trajectories: &[Trajectory], out: &mut dyn io::Write) -> io::Result<()> {
+pub fn write_csv<T: Borrow<Trajectory>>(
+    trajectories: &[T],
+    out: &mut dyn io::Write,
+) -> io::Result<()> {
     writeln!(out, "{CSV_HEADER}")?;
-    let chunks: Vec<(&Trajectory, Range<usize>)> = trajectories.iter().flat_map(chunks).collect();
+    let trajectories = trajectories.iter().map(T::borrow);
+    let chunks: Vec<(&Trajectory, Range<usize>)> = trajectories.flat_map(chunks).collect();
     for batch in chunks.chunks(BATCH / CHUNK) {
         let rows: Vec<String> = batch
             .par_iter()

@@ -4,8 +4,12 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// The first `length` bytes of a file named relative to the folder, which it must not leave.
-pub(super) fn read(uri: &str, length: usize, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+/// The first `length` bytes of a file named relative to the folder, which it must not leave; all of them if none.
+pub(super) fn read(
+    uri: &str,
+    length: Option<usize>,
+    folder: Option<&Path>,
+) -> Result<Vec<u8>, String> {
     let folder = folder.ok_or("the folder of the file is not known")?;
     let name = name(uri).ok_or("only names of files in its folder are read")?;
     let path = confined(folder, &name)?;
@@ -15,14 +19,13 @@ pub(super) fn read(uri: &str, length: usize, folder: Option<&Path>) -> Result<Ve
     if !metadata.is_file() {
         return Err("it is not a regular file".to_owned());
     }
-    if metadata.len() < length as u64 {
+    let length = length.map_or(metadata.len(), |length| length as u64);
+    if metadata.len() < length {
         return Err(format!("{} bytes instead of {length}", metadata.len()));
     }
-    let mut bytes = Vec::with_capacity(length);
+    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
     let file = File::open(&path).map_err(failed)?;
-    file.take(length as u64)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
+    file.take(length).read_to_end(&mut bytes).map_err(failed)?;
     Ok(bytes)
 }
 

@@ -8,7 +8,7 @@ use super::super::{ParseError, Place};
 use super::document::{Buffer, BufferView, Document, Meshopt};
 #[cfg(feature = "meshopt")]
 use super::meshopt::decompress;
-use super::{base64, beside, get};
+use super::{get, resource, shortened};
 
 /// Bytes that may be made of compressed and sparse data of any size.
 const ALWAYS_MADE: usize = 1 << 26;
@@ -101,11 +101,10 @@ impl<'a> Buffers<'a> {
                 let chunk = self.chunk.filter(|_| index == 0);
                 Cow::Borrowed(chunk.ok_or_else(|| error("there is no binary chunk".to_owned()))?)
             }
-            Some(uri) => Cow::Owned(match uri.strip_prefix("data:") {
-                Some(data) => base64::embedded(data)
-                    .ok_or_else(|| error("its base64 text is broken".to_owned()))?,
-                None => beside::read(uri, buffer.byte_length, self.folder).map_err(error)?,
-            }),
+            Some(uri) => {
+                let bytes = resource(uri, Some(buffer.byte_length), self.folder);
+                Cow::Owned(bytes.map_err(error)?)
+            }
         };
         if bytes.len() < buffer.byte_length {
             let reason = format!("{} bytes instead of {}", bytes.len(), buffer.byte_length);
@@ -137,12 +136,6 @@ fn once<T>(
             Ok(cell.get_or_init(|| value))
         }
     }
-}
-
-fn shortened(uri: Option<&str>) -> String {
-    uri.map_or("(binary chunk)".to_owned(), |uri| {
-        uri.chars().take(60).collect()
-    })
 }
 
 pub(super) fn slice(bytes: &[u8], offset: usize, length: usize) -> Option<&[u8]> {

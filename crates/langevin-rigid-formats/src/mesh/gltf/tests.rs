@@ -133,7 +133,7 @@ impl Maker {
     }
 }
 
-pub(super) fn glb(json: &str, data: &[u8]) -> Vec<u8> {
+pub(crate) fn glb(json: &str, data: &[u8]) -> Vec<u8> {
     let mut json = json.as_bytes().to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');
     let mut out = b"glTF\x02\0\0\0".to_vec();
