@@ -21,7 +21,7 @@ fn main() {
             for i in 0..n { w.add(k.clone(), State{ position: [0.002*(i%3) as f64, 0.0151+0.0301*i as f64, 0.0], ..State::default()}, NoiseStream{seed:1,body:i}); }
             for step in 0..(10.0/dt) as usize {
                 w.step(dt).unwrap();
-                if step % (every/dt) as usize == 0 { let s = w.state(n as usize-1); println!("{:.2} y {:.6} x {:.6} v {:.2e} asleep {}", w.time(), s.position[1], s.position[0], norm(s.velocity)+0.1*norm(s.angular_velocity), (0..n as usize).filter(|i| w.is_asleep(*i)).count()); }
+                if step % (every/dt) as usize == 0 { let s = w.state(n as usize-1); println!("{:.2} y {:.6} x {:.6} v {:.2e} asleep {}", w.time(), s.position[1], s.position[0], norm(s.velocity)+0.1*norm(s.angular_velocity), { for i in 0..n as usize { if !w.is_asleep(i) && w.time()>3.0 { let s=w.state(i); print!("[{i} {:.1e} {:.1e}] ", norm(s.velocity), norm(s.angular_velocity)); } } (0..n as usize).filter(|i| w.is_asleep(*i)).count() }); }
             }
         }
         "coin" => {

@@ -48,8 +48,17 @@ pub(crate) struct Rest {
     stirred: Option<Pose>,
     /// How long it has been near its pose (s).
     still: f64,
-    /// The bodies that it sleeps against, while it does.
-    asleep: Option<Vec<u32>>,
+    /// What it sleeps on, while it does.
+    asleep: Option<Bed>,
+}
+
+/// What a body touched when it fell asleep.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Bed {
+    /// Bodies.
+    pub(crate) against: Vec<u32>,
+    /// Impulses of all contacts in a step (N s).
+    pub(crate) pressed: f64,
 }
 
 impl Rest {
@@ -83,15 +92,20 @@ impl Rest {
         self.still >= DROWSY
     }
 
-    /// Sleeps against some bodies.
-    pub(crate) fn sleep(&mut self, against: Vec<u32>) {
-        self.asleep = Some(against);
+    /// Falls asleep.
+    pub(crate) fn sleep(&mut self, bed: Bed) {
+        self.asleep = Some(bed);
+    }
+
+    /// Impulses of its contacts when it fell asleep (N s).
+    pub(crate) fn pressed(&self) -> f64 {
+        self.asleep.as_ref().map_or(0.0, |bed| bed.pressed)
     }
 
     /// Whether it sleeps against one of those that have stirred.
     pub(crate) fn is_stirred_by(&self, stirred: &[bool]) -> bool {
-        let against = self.asleep.iter().flatten();
-        against.into_iter().any(|body| stirred[*body as usize])
+        let mut against = self.asleep.iter().flat_map(|bed| &bed.against);
+        against.any(|body| stirred[*body as usize])
     }
 }
 

@@ -18,7 +18,7 @@ use crate::contact::{Patch, Point};
 use crate::material::{Material, MaterialError};
 use crate::obstacle::{Geometry, Obstacle, pose};
 use crate::shape::Shape;
-use crate::sleep::{self, Rest};
+use crate::sleep::{self, Bed, Rest};
 
 /// What bodies of one kind share: how they move in the fluid, what touches, how it rubs.
 #[derive(Debug, Clone)]
@@ -268,7 +268,7 @@ impl World {
     pub fn step(&mut self, dt: f64) -> Result<(), WorldError> {
         let met = loop {
             let met = self.meet(dt);
-            if !self.wake_the_hit(&met) {
+            if !self.wake_the_hit(&met, dt) {
                 break met;
             }
         };
@@ -390,7 +390,7 @@ impl World {
     }
 
     /// Wakes what sleeps and is hit; whether there was any.
-    fn wake_the_hit(&mut self, met: &[Met]) -> bool {
+    fn wake_the_hit(&mut self, met: &[Met], dt: f64) -> bool {
         let mut hit = Vec::new();
         for met in met.iter().filter(|met| met.key.obstacle.is_none()) {
             let (a, b) = (met.key.a as usize, met.key.b as usize);
@@ -401,13 +401,14 @@ impl World {
             };
             let kind = &self.members[sleeper].kind;
             let disturbing = sleep::disturbing(kind.shape.radius(), self.gravity);
+            let pressed = self.members[sleeper].rest.pressed();
             let fast = |point: &Point| {
                 let velocity = |body: usize, at: Vector| velocity_at(&self.members[body].state, at);
                 let approach = velocity(a, point.on_a) - velocity(b, point.on_b);
                 let push = self.impulse_at(met.key, point);
-                // Hit, or pressed upon by more than itself.
+                // Hit, or pressed upon by more than it carried and its own weight.
                 (point.gap <= met.skin && approach.dot(met.patch.normal) > disturbing)
-                    || push > disturbing / kind.lightness()
+                    || push > pressed + self.gravity * dt / kind.lightness()
             };
             if met.patch.points.iter().any(fast) {
                 hit.push(sleeper);
@@ -604,7 +605,7 @@ impl World {
         let fall = self.gravity * dt;
         let rules = Rules {
             dt,
-            tolerance: 1e-3 * fall,
+            tolerance: 0.001 * fall,
             bounce: 4.0 * fall,
         };
         solver::solve(&mut movers, &mut numbered, &rules);
@@ -625,10 +626,11 @@ impl World {
         }
         self.held = solved.held;
         let mut touching = vec![None; self.members.len()];
-        for Held { key, .. } in &self.held {
+        for Held { key, impulse, .. } in &self.held {
             let mut touch = |body: u32, other: Option<u32>| {
-                let others: &mut Vec<u32> = touching[body as usize].get_or_insert_default();
-                others.extend(other);
+                let bed: &mut Bed = touching[body as usize].get_or_insert_default();
+                bed.against.extend(other);
+                bed.pressed += impulse.length();
             };
             touch(key.b, key.obstacle.is_none().then_some(key.a));
             if key.obstacle.is_none() {
