@@ -92,6 +92,11 @@ impl Rest {
         self.still >= DROWSY
     }
 
+    /// Whether it has stayed near one pose for so long (s).
+    pub(crate) fn is_still(&self, time: f64) -> bool {
+        self.is_asleep() || self.still >= time
+    }
+
     /// Falls asleep.
     pub(crate) fn sleep(&mut self, bed: Bed) {
         self.asleep = Some(bed);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use langevin_rigid::linalg::vector::norm;
 use langevin_rigid::linalg::{Vec3, quat_from_rotation_vector};
 use langevin_rigid::wind::Wind;
-use langevin_rigid::{Input, NoiseStream, State, StepError, Stepper};
+use langevin_rigid::{Input, NoiseStream, State, StepError};
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::{Pose, Rotation, Vector};
 use rayon::prelude::*;
@@ -15,46 +15,14 @@ use crate::contact::island::Islands;
 use crate::contact::narrow::{self, Placed};
 use crate::contact::solver::{self, Contact, InverseMass, Mover, Rules, Twist};
 use crate::contact::{Patch, Point};
-use crate::material::{Material, MaterialError};
 use crate::obstacle::{Geometry, Obstacle, pose};
-use crate::shape::Shape;
+use crate::kind::Kind;
 use crate::sleep::{self, Bed, Rest};
-
-/// What bodies of one kind share: how they move in the fluid, what touches, how it rubs.
-#[derive(Debug, Clone)]
-pub struct Kind {
-    stepper: Stepper,
-    shape: Shape,
-    material: Material,
-}
-
-impl Kind {
-    /// A kind of body.
-    ///
-    /// # Errors
-    /// [`MaterialError`].
-    pub fn new(stepper: Stepper, shape: Shape, material: Material) -> Result<Self, MaterialError> {
-        Ok(Self {
-            stepper,
-            shape,
-            material: material.checked()?,
-        })
-    }
-
-    /// How it moves.
-    pub fn stepper(&self) -> &Stepper {
-        &self.stepper
-    }
-
-    /// What touches.
-    pub fn shape(&self) -> &Shape {
-        &self.shape
-    }
-}
+use crate::water::WaterSurface;
 
 /// Bodies in a fluid that meet obstacles and each other.
 ///
-/// A step moves every body by its own [`Stepper`], under the wind, and then gives impulses where bodies would enter
+/// A step moves every body by its own [`Stepper`](langevin_rigid::Stepper), under the wind, and then gives impulses where bodies would enter
 /// others: against the full 6x6 mass of body and fluid, with Coulomb's friction, Newton's restitution and no gain of
 /// energy. Bodies that have come to rest sleep until they are disturbed.
 ///
@@ -86,6 +54,7 @@ pub struct World {
     time: f64,
     wind: Wind,
     stream: Vec3,
+    water: Option<WaterSurface>,
     obstacles: Vec<Obstacle>,
     members: Vec<Member>,
     /// Impulses of the last step, in the order of their keys.
@@ -155,6 +124,9 @@ struct Met {
 /// Gap that is kept between two bodies, in radii of the smaller one.
 const SKIN: f64 = 5e-4;
 
+/// Steps between two looks at whether the wind moves a sleeping body.
+const LOOKS: u64 = 16;
+
 impl World {
     /// An empty world with this gravity (m/s^2), which must be that of the steppers of its bodies.
     pub fn new(gravity: Vec3) -> Self {
@@ -163,6 +135,7 @@ impl World {
             time: 0.0,
             wind: Wind::default(),
             stream: [0.0; 3],
+            water: None,
             obstacles: Vec::new(),
             members: Vec::new(),
             held: Vec::new(),
@@ -172,6 +145,16 @@ impl World {
     /// Sets the wind, on top of the velocity `stream` (m/s) of the fluid that the steppers have.
     pub fn set_wind(&mut self, wind: Wind, stream: Vec3) {
         (self.wind, self.stream) = (wind, stream);
+    }
+
+    /// Sets the surface of the water, for the bodies whose [kind](Kind::between) is made for two fluids.
+    pub fn set_water(&mut self, surface: WaterSurface) {
+        self.water = Some(surface);
+    }
+
+    /// The surface of the water.
+    pub fn water(&self) -> Option<&WaterSurface> {
+        self.water.as_ref()
     }
 
     /// Adds what does not move.
@@ -232,6 +215,11 @@ impl World {
         self.members[body].rest.is_asleep()
     }
 
+    /// Whether a body has stayed where it is for a second, asleep on others or afloat.
+    pub fn is_still(&self, body: usize) -> bool {
+        self.members[body].rest.is_still(1.0)
+    }
+
     /// Wakes a body; those that sleep against it wake when it moves.
     pub fn wake(&mut self, body: usize) {
         self.members[body].rest.wake();
@@ -250,7 +238,7 @@ impl World {
             .iter()
             .map(|met| (depth(met), met))
             .max_by(|a, b| a.0.total_cmp(&b.0))?;
-        (deepest > 1e-3 * members[body].kind.shape.radius()).then(|| Overlap {
+        (deepest > 1e-3 * members[body].kind.shape().radius()).then(|| Overlap {
             body,
             other: match met.key.obstacle {
                 Some(number) => format!("obstacle {number}"),
@@ -266,6 +254,7 @@ impl World {
     /// # Errors
     /// [`WorldError`], with all bodies as they were.
     pub fn step(&mut self, dt: f64) -> Result<(), WorldError> {
+        self.wake_the_blown();
         let met = loop {
             let met = self.meet(dt);
             if !self.wake_the_hit(&met, dt) {
@@ -285,7 +274,7 @@ impl World {
         if member.rest.is_asleep() {
             return 0.0;
         }
-        1.5 * sleep::fastest(&member.state, member.kind.shape.radius()) * dt
+        1.5 * sleep::fastest(&member.state, member.kind.shape().radius()) * dt
             + 2.0 * self.gravity * dt * dt
     }
 
@@ -295,7 +284,7 @@ impl World {
             .members
             .iter()
             .map(|member| {
-                let margin = self.stride(member, dt) + SKIN * member.kind.shape.radius();
+                let margin = self.stride(member, dt) + SKIN * member.kind.shape().radius();
                 bounds(member).loosened(margin)
             })
             .collect();
@@ -320,7 +309,7 @@ impl World {
 
     fn bodies_met(&self, (a, b): (usize, usize), reach: f64) -> Vec<Met> {
         let (first, second) = (&self.members[a], &self.members[b]);
-        let skin = SKIN * first.kind.shape.radius().min(second.kind.shape.radius());
+        let skin = SKIN * first.kind.shape().radius().min(second.kind.shape().radius());
         let mut met = Vec::new();
         for (part_a, hull_a) in parts(first) {
             for (part_b, hull_b) in parts(second) {
@@ -340,7 +329,7 @@ impl World {
 
     fn obstacles_met(&self, body: usize, reach: f64) -> Vec<Met> {
         let member = &self.members[body];
-        let skin = SKIN * member.kind.shape.radius();
+        let skin = SKIN * member.kind.shape().radius();
         let reach = reach + skin;
         let around = bounds(member).loosened(reach);
         let mut met = Vec::new();
@@ -400,7 +389,7 @@ impl World {
                 _ => continue,
             };
             let kind = &self.members[sleeper].kind;
-            let disturbing = sleep::disturbing(kind.shape.radius(), self.gravity);
+            let disturbing = sleep::disturbing(kind.shape().radius(), self.gravity);
             let pressed = self.members[sleeper].rest.pressed();
             let fast = |point: &Point| {
                 let velocity = |body: usize, at: Vector| velocity_at(&self.members[body].state, at);
@@ -420,6 +409,23 @@ impl World {
         !hit.is_empty()
     }
 
+    /// Wakes what sleeps in wind that may move it. Looks at each body now and then.
+    fn wake_the_blown(&mut self) {
+        if self.wind.is_empty() && self.stream == [0.0; 3] {
+            return;
+        }
+        let (wind, stream) = (&self.wind, self.stream);
+        for (body, member) in self.members.iter_mut().enumerate() {
+            let due = (member.state.step + body as u64).is_multiple_of(LOOKS);
+            if due && member.rest.is_asleep() {
+                let flow = wind.flow(member.state.position, member.state.time, stream);
+                if member.kind.is_blown(&member.state, flow) {
+                    member.rest.wake();
+                }
+            }
+        }
+    }
+
     /// The normal at which two touched in the last step.
     fn normal_before(&self, key: Key) -> Option<Vector> {
         let from = self.held.partition_point(|held| held.key < key);
@@ -431,7 +437,7 @@ impl World {
     fn impulse_at(&self, key: Key, point: &Point) -> f64 {
         let member = &self.members[key.b as usize];
         let at = placed(&member.state).inverse_transform_point(point.on_b);
-        self.held_at(key, at, member.kind.shape.radius()).length()
+        self.held_at(key, at, member.kind.shape().radius()).length()
     }
 
     /// The impulse of the last step near a point of b, in its frame.
@@ -465,7 +471,7 @@ impl World {
                 if !self.wind.is_empty() {
                     input.flow = self.wind.flow(state.position, state.time, self.stream);
                 }
-                match member.kind.stepper.step(&mut state, dt, &input) {
+                match member.kind.step(&mut state, dt, &input, self.water.as_ref()) {
                     Ok(()) => Ok(state),
                     Err(error) => Err(WorldError { body, error }),
                 }
@@ -483,12 +489,12 @@ impl World {
             let moves = |body: usize| (!self.is_asleep(body)).then_some(body);
             let (a, material) = match key.obstacle {
                 Some(number) => (None, self.obstacles[number as usize].material),
-                None => (Some(key.a as usize), self.members[key.a as usize].kind.material),
+                None => (Some(key.a as usize), self.members[key.a as usize].kind.material()),
             };
-            let material = material.with(second.kind.material);
+            let material = material.with(second.kind.material());
             let frame = placed(&second.state);
             let centre_a = a.map_or(Vector::ZERO, |a| self.members[a].state.position.into());
-            let radius = second.kind.shape.radius();
+            let radius = second.kind.shape().radius();
             for point in &patch.points {
                 let at = frame.inverse_transform_point(point.on_b);
                 contacts.push((
@@ -582,7 +588,7 @@ impl World {
                 let state = &free[body];
                 Mover {
                     inverse_mass: InverseMass::new(
-                        self.members[body].kind.stepper.inverse_total_mass(),
+                        &self.members[body].kind.inverse_mass(state, self.water.as_ref()),
                         placed(state).rotation,
                     ),
                     velocity: Twist {
@@ -621,7 +627,7 @@ impl World {
         for (body, (member, state)) in self.members.iter_mut().zip(solved.states).enumerate() {
             member.state = state;
             if !member.rest.is_asleep() {
-                stirred[body] = member.rest.stirs(&state, member.kind.shape.radius(), dt);
+                stirred[body] = member.rest.stirs(&state, member.kind.shape().radius(), dt);
             }
         }
         self.held = solved.held;
@@ -647,14 +653,6 @@ impl World {
                 (member.state.velocity, member.state.angular_velocity) = ([0.0; 3], [0.0; 3]);
             }
         }
-    }
-}
-
-impl Kind {
-    /// One over the mass of body and fluid, of its lightest direction (1/kg).
-    fn lightness(&self) -> f64 {
-        let inverse = self.stepper.inverse_total_mass();
-        (0..3).map(|i| inverse[i][i]).fold(0.0, f64::max)
     }
 }
 
@@ -685,7 +683,7 @@ fn placed(state: &State) -> Pose {
 
 fn bounds(member: &Member) -> Aabb {
     let pose = placed(&member.state);
-    let points = member.kind.shape.hulls().iter().flat_map(|hull| &hull.points);
+    let points = member.kind.shape().hulls().iter().flat_map(|hull| &hull.points);
     Aabb::from_points(points.map(|p| pose * *p))
 }
 
@@ -695,8 +693,8 @@ fn bounds_meet(a: &Aabb, b: &Aabb) -> bool {
 
 /// The hulls of a body, numbered.
 fn parts(member: &Member) -> impl Iterator<Item = (u32, Placed<'_>)> {
-    let (pose, size) = (placed(&member.state), member.kind.shape.radius());
-    let hulls = member.kind.shape.hulls().iter().enumerate();
+    let (pose, size) = (placed(&member.state), member.kind.shape().radius());
+    let hulls = member.kind.shape().hulls().iter().enumerate();
     hulls.map(move |(part, hull)| (part as u32, Placed { hull, pose, size }))
 }
 

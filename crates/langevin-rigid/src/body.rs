@@ -215,6 +215,70 @@ impl Body {
         self.mass / self.volume
     }
 
+    /// The same body so many times as large, of the same density: tensors grow with the third to fifth power of its size.
+    ///
+    /// ```
+    /// use langevin_rigid::Body;
+    /// let (small, large) = (Body::sphere(0.01, 600.0)?, Body::sphere(0.02, 600.0)?);
+    /// let grown = small.scaled(2.0);
+    /// assert!((grown.mass / large.mass - 1.0).abs() < 1e-12);
+    /// assert!((grown.added_mass[0][0] / large.added_mass[0][0] - 1.0).abs() < 1e-12);
+    /// # Ok::<(), langevin_rigid::BodyError>(())
+    /// ```
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let power = |n: i32| (0..n).fold(1.0, |power, _| power * factor);
+        let vector = |a: Vec3| a.map(|x| factor * x);
+        let matrix = |m: &Mat3, n: i32| m.map(|row| row.map(|x| power(n) * x));
+        // Translations couple with the third power, each rotation adds one.
+        let block = |i: usize, j: usize| power(3 + i32::from(i > 2) + i32::from(j > 2));
+        let slice = |slice: &Slice| Slice {
+            centre: vector(slice.centre),
+            translation: matrix(&slice.translation, 3),
+            rotation: matrix(&slice.rotation, 5),
+            drag_area: matrix(&slice.drag_area, 2),
+            extents: matrix(&slice.extents, 2),
+        };
+        let Separation {
+            drag_area,
+            extents,
+            stokes_translation,
+            stokes_rotation,
+        } = &self.separation;
+        Self {
+            mass: power(3) * self.mass,
+            inertia: matrix(&self.inertia, 5),
+            volume: power(3) * self.volume,
+            centre_of_buoyancy: vector(self.centre_of_buoyancy),
+            added_mass: std::array::from_fn(|i| {
+                std::array::from_fn(|j| block(i, j) * self.added_mass[i][j])
+            }),
+            half_extents: vector(self.half_extents),
+            thickness: factor * self.thickness,
+            length: factor * self.length,
+            separation: Separation {
+                drag_area: matrix(drag_area, 2),
+                extents: matrix(extents, 2),
+                stokes_translation: matrix(stokes_translation, 1),
+                stokes_rotation: matrix(stokes_rotation, 3),
+            },
+            slices: self.slices.iter().map(slice).collect(),
+            surface: Surface {
+                vertices: self.surface.vertices.iter().copied().map(vector).collect(),
+                triangles: self.surface.triangles.clone(),
+                panels: self.surface.panels.clone(),
+                potentials: self
+                    .surface
+                    .potentials
+                    .iter()
+                    .map(|p| {
+                        std::array::from_fn(|i| power(1 + i32::from(i > 2)) * p[i])
+                    })
+                    .collect(),
+            },
+        }
+    }
+
     /// The total tensor T = diag(m, J0) + rho_f A (kg, kg m, kg m^2), linear part first.
     pub fn total_mass(&self, fluid_density: f64) -> Mat6 {
         let mut total = self.added_mass.map(|row| row.map(|a| fluid_density * a));

@@ -1,0 +1,115 @@
+//! What bodies of one kind share.
+
+use langevin_rigid::linalg::Mat6;
+use langevin_rigid::linalg::vector::{add, norm, sub};
+use langevin_rigid::{Flow, Input, State, StepError, Stepper};
+
+use crate::material::{Material, MaterialError};
+use crate::shape::Shape;
+use crate::water::{Immersion, WaterSurface};
+
+/// How bodies move in the fluid, what of them touches, and how it rubs.
+#[derive(Debug, Clone)]
+pub struct Kind {
+    fluids: Fluids,
+    shape: Shape,
+    material: Material,
+}
+
+#[derive(Debug, Clone)]
+enum Fluids {
+    One(Box<Stepper>),
+    Two(Box<Immersion>),
+}
+
+/// A sleeping body wakes in a wind that pushes it with this share of its weight.
+const BLOWN: f64 = 0.1;
+
+impl Kind {
+    /// Bodies in one fluid.
+    ///
+    /// # Errors
+    /// [`MaterialError`].
+    pub fn new(stepper: Stepper, shape: Shape, material: Material) -> Result<Self, MaterialError> {
+        Self::of(Fluids::One(Box::new(stepper)), shape, material)
+    }
+
+    /// Bodies that may cross the surface between two.
+    ///
+    /// # Errors
+    /// [`MaterialError`].
+    pub fn between(
+        immersion: Immersion,
+        shape: Shape,
+        material: Material,
+    ) -> Result<Self, MaterialError> {
+        Self::of(Fluids::Two(Box::new(immersion)), shape, material)
+    }
+
+    fn of(fluids: Fluids, shape: Shape, material: Material) -> Result<Self, MaterialError> {
+        Ok(Self {
+            fluids,
+            shape,
+            material: material.checked()?,
+        })
+    }
+
+    /// How they move in the fluid; the upper one, of two.
+    pub fn stepper(&self) -> &Stepper {
+        match &self.fluids {
+            Fluids::One(stepper) => stepper,
+            Fluids::Two(immersion) => immersion.in_air(),
+        }
+    }
+
+    /// What of them touches.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// How they rub.
+    pub fn material(&self) -> Material {
+        self.material
+    }
+
+    pub(crate) fn step(
+        &self,
+        state: &mut State,
+        dt: f64,
+        input: &Input,
+        water: Option<&WaterSurface>,
+    ) -> Result<(), StepError> {
+        match (&self.fluids, water) {
+            (Fluids::Two(immersion), Some(surface)) => immersion.step(state, dt, input, surface),
+            _ => self.stepper().step(state, dt, input),
+        }
+    }
+
+    /// Inverse mass of a body and the fluid around it, body frame.
+    pub(crate) fn inverse_mass(&self, state: &State, water: Option<&WaterSurface>) -> Mat6 {
+        match (&self.fluids, water) {
+            (Fluids::Two(immersion), Some(surface)) => {
+                immersion.inverse_total_mass(immersion.share(state, surface))
+            }
+            _ => *self.stepper().inverse_total_mass(),
+        }
+    }
+
+    /// One over the mass of a body and the upper fluid around it, in its lightest direction (1/kg).
+    pub(crate) fn lightness(&self) -> f64 {
+        let inverse = self.stepper().inverse_total_mass();
+        (0..3).map(|i| inverse[i][i]).fold(0.0, f64::max)
+    }
+
+    /// Whether a flow pushes a body at rest so that it may move.
+    pub(crate) fn is_blown(&self, state: &State, flow: Flow) -> bool {
+        let input = Input {
+            flow,
+            ..Input::default()
+        };
+        let loads = self.stepper().loads(state, &input);
+        let heavy = add(loads.weight.force, loads.buoyancy.force);
+        let push = sub(loads.sum().force, heavy);
+        norm(push) > BLOWN * norm(heavy)
+    }
+}
