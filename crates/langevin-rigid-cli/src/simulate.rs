@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context as _, Result, bail};
+use langevin_rigid::Bake;
 use langevin_rigid_formats::budget;
 use langevin_rigid_formats::export::{
     self, ExportError, Format, Kind, Options, RecordedBody, Recording,
@@ -12,9 +13,11 @@ use langevin_rigid_formats::export::{
 use langevin_rigid_formats::files;
 use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::Trajectory;
+use langevin_rigid_formats::visual::Visual;
 use langevin_rigid_pictures::Film;
 use langevin_rigid_scenes::baking::Baked;
-use langevin_rigid_scenes::prepared::Fall;
+use langevin_rigid_scenes::look::look;
+use langevin_rigid_scenes::prepared::{Fall, Prepared};
 use langevin_rigid_scenes::scene::{self, Scene};
 
 use crate::arguments::Simulate;
@@ -43,16 +46,19 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     prepared.check_release()?;
     forecast(options, scene, baked)?;
 
+    let looks = looks(&prepared)?;
+
     let started = Instant::now();
-    let most = budget::spare() / (u64::from(options.bodies) * forecast::STATE as u64);
-    let most = usize::try_from(most).unwrap_or(usize::MAX);
-    let falls = bars.stoppable(|| prepared.drop_side_by_side(options.bodies, most, bars));
+    let falls = drop(options.bodies, &prepared, bars)?;
     let run_seconds = started.elapsed().as_secs_f64();
 
     let mut summary = Summary::new(&prepared, &falls);
     summary
         .warnings
-        .extend(missing(options.bodies, falls.len()));
+        .extend(missing(asked(options.bodies, scene), falls.len()));
+    for look in looks.iter().flatten() {
+        summary.warnings.extend(look.notices().iter().cloned());
+    }
     summary.seconds.bake = bake_seconds;
     summary.seconds.run = run_seconds;
     let steps: usize = falls.iter().map(|fall| fall.states.len() - 1).sum();
@@ -62,11 +68,18 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
         .map(|fall| Trajectory::new(fall.body, &fall.states))
         .collect();
     let shot = Shot::new(options, &prepared, &trajectories[0].poses);
-    let kind = Kind::new(&scene.name, &baked.bake);
-    let bodies: Vec<RecordedBody<'_>> = trajectories.iter().map(RecordedBody::from).collect();
+    let kinds = kinds(&prepared, &looks);
+    let bodies = falls.iter().zip(&trajectories);
+    let bodies: Vec<RecordedBody<'_>> = bodies
+        .map(|(fall, trajectory)| RecordedBody {
+            kind: fall.kind,
+            scale: fall.scale,
+            trajectory,
+        })
+        .collect();
     let run = Recording {
         conditions: scene.conditions(),
-        kinds: &[kind],
+        kinds: &kinds,
         bodies: &bodies,
     };
     let formats = write_all(options, &folder, scene, &run, &shot, &mut summary)?;
@@ -85,6 +98,51 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     fail_if_full(&falls, &folder)?;
     fail_if_diverged(&falls, &folder)?;
     Ok(formats?)
+}
+
+/// How many bodies the run is to have.
+fn asked(bodies: u32, scene: &Scene) -> u32 {
+    scene.crowd.as_ref().map_or(bodies, |crowd| crowd.count)
+}
+
+fn drop(bodies: u32, prepared: &Prepared, bars: &Bars) -> Result<Vec<Fall>> {
+    let most = budget::spare() / forecast::STATE as u64;
+    let most = |share: u64| usize::try_from(most / share).unwrap_or(usize::MAX);
+    if prepared.surroundings().is_some() {
+        return Ok(bars.stoppable(|| prepared.drop_together(bodies, most(1), bars))?);
+    }
+    let each = most(u64::from(bodies));
+    Ok(bars.stoppable(|| prepared.drop_side_by_side(bodies, each, bars)))
+}
+
+/// The looks of the kinds of bodies, read before there is anything to lose.
+fn looks(prepared: &Prepared) -> Result<Vec<Option<Visual>>> {
+    let Some(surroundings) = prepared.surroundings() else {
+        return Ok(vec![look(prepared.scene())?]);
+    };
+    let kinds = surroundings.kinds().iter();
+    Ok(kinds
+        .map(|kind| look(&kind.scene))
+        .collect::<Result<_, _>>()?)
+}
+
+fn kinds<'a>(prepared: &'a Prepared, looks: &'a [Option<Visual>]) -> Vec<Kind<'a>> {
+    let bakes: Vec<(&str, &Bake)> = match prepared.surroundings() {
+        None => vec![(&prepared.scene().name, &prepared.baked().bake)],
+        Some(surroundings) => {
+            let kinds = surroundings.kinds().iter();
+            kinds
+                .map(|kind| (kind.scene.name.as_str(), &kind.baked.bake))
+                .collect()
+        }
+    };
+    let pairs = bakes.into_iter().zip(looks);
+    pairs
+        .map(|((name, bake), look)| Kind {
+            visual: look.as_ref(),
+            ..Kind::new(name, bake)
+        })
+        .collect()
 }
 
 fn missing(asked: u32, begun: usize) -> Option<String> {
@@ -170,6 +228,11 @@ fn apply(options: &Simulate, scene: &mut Scene) {
     scene.settings.turbulence = options.turbulence.unwrap_or(scene.settings.turbulence);
     if let Some(model) = options.model {
         scene.set_model(model);
+    }
+    if let Some(crowd) = &mut scene.crowd
+        && options.bodies > 1
+    {
+        crowd.count = options.bodies;
     }
 }
 

@@ -62,6 +62,7 @@ use langevin_rigid_pictures::PictureError;
 use langevin_rigid_scenes::baking::SceneBakeError;
 use langevin_rigid_scenes::prepared::PrepareError;
 use langevin_rigid_scenes::scene::{FindError, SceneWindError};
+use langevin_rigid_scenes::together::SurroundingsError;
 
 pub use numbers::Numbers;
 pub use section::{Claim, Section};
@@ -174,6 +175,9 @@ pub enum ReportError {
     /// A wind is none.
     #[error(transparent)]
     Wind(#[from] SceneWindError),
+    /// What bodies meet in a scene is none.
+    #[error(transparent)]
+    Surroundings(#[from] SurroundingsError),
     /// The turbulence could not be computed.
     #[error(transparent)]
     Turbulence(#[from] TurbulenceError),
@@ -197,6 +201,7 @@ impl From<PrepareError> for ReportError {
             PrepareError::Bake(error) => Self::Bake(error),
             PrepareError::Setup(error) => Self::Setup(error),
             PrepareError::Wind(error) => Self::Wind(error),
+            PrepareError::Surroundings(error) => Self::Surroundings(error),
         }
     }
 }

@@ -49,6 +49,8 @@
 //! - [`baking`]: from a scene to its mesh, its bake and its stepper.
 //! - [`prepared`]: a scene made ready, and the loop that drops its body.
 //! - [`advance`](mod@advance): one step of a scene, for hosts with a loop of their own.
+//! - [`look`](mod@look): how bodies look in exports.
+//! - [`together`]: bodies that touch, float, and are many.
 //! - [`ensemble`]: many falls, what kind of motion each is, and their statistics.
 //! - [`regimes`]: how discs and strips fall over Reynolds number and inertia, against experiments.
 //!
@@ -73,6 +75,8 @@
 pub mod advance;
 pub mod baking;
 pub mod ensemble;
+pub mod look;
 pub mod prepared;
 pub mod regimes;
 pub mod scene;
+pub mod together;

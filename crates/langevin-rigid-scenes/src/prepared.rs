@@ -16,6 +16,7 @@ use crate::advance::advance;
 use crate::baking::{Baked, SceneBakeError, bake_scene, stepper};
 use crate::ensemble::side_by_side;
 use crate::scene::{Scene, SceneWindError};
+use crate::together::{Surroundings, SurroundingsError};
 
 /// A scene with its bake, its stepper and the hull that touches the ground: all that a run needs.
 ///
@@ -39,6 +40,8 @@ pub struct Prepared {
     stepper: Stepper,
     wind: Wind,
     hull: Hull,
+    /// What bodies meet, in a scene where they meet anything.
+    surroundings: Option<Arc<Surroundings>>,
 }
 
 /// Why a scene could not be made ready.
@@ -53,6 +56,9 @@ pub enum PrepareError {
     /// Its wind is none.
     #[error(transparent)]
     Wind(#[from] SceneWindError),
+    /// What its bodies meet is none.
+    #[error(transparent)]
+    Surroundings(#[from] SurroundingsError),
 }
 
 /// Why a run would be none.
@@ -92,6 +98,10 @@ pub struct Release {
 pub struct Fall {
     /// Number of the body: that of its noise.
     pub body: u32,
+    /// Its kind, in a [crowd](crate::scene::Crowd) of several.
+    pub kind: usize,
+    /// Its size, as a multiple of its kind's.
+    pub scale: f64,
     /// The release, and the state after each step.
     pub states: Vec<State>,
     /// How it ended; [`Ending::Stopped`] where it was cancelled or `full`.
@@ -101,11 +111,12 @@ pub struct Fall {
 }
 
 impl Fall {
-    /// How it ended, in a word: ground, time, memory, interrupted or diverged.
+    /// How it ended, in a word: ground, time, rest, memory, interrupted or diverged.
     pub fn ending(&self) -> &'static str {
         match self.ended {
             Ok(Ending::Ground) => "ground",
             Ok(Ending::Time) => "time",
+            Ok(Ending::Rest) => "rest",
             Ok(Ending::Stopped) if self.full => "memory",
             Ok(Ending::Stopped) => "interrupted",
             Err(_) => "diverged",
@@ -159,7 +170,7 @@ impl Prepared {
         progress: &dyn Progress,
     ) -> Result<Self, PrepareError> {
         let baked = bake_scene(&scene, cache, progress)?;
-        Self::of(scene, Arc::new(baked))
+        Self::with_others(scene, Arc::new(baked), cache, progress)
     }
 
     /// From a bake that is there: the scene's own, or that of a scene of the same body whose turbulence serves both.
@@ -167,7 +178,20 @@ impl Prepared {
     /// # Errors
     /// [`PrepareError`].
     pub fn of(scene: Scene, baked: Arc<Baked>) -> Result<Self, PrepareError> {
+        Self::with_others(scene, baked, None, &())
+    }
+
+    fn with_others(
+        scene: Scene,
+        baked: Arc<Baked>,
+        cache: Option<&Path>,
+        progress: &dyn Progress,
+    ) -> Result<Self, PrepareError> {
+        let surroundings = scene
+            .is_world()
+            .then(|| Surroundings::new(&scene, &baked, cache, progress));
         Ok(Self {
+            surroundings: surroundings.transpose()?.map(Arc::new),
             stepper: stepper(&scene, &baked.bake)?,
             wind: scene.make_wind()?,
             hull: Hull::new(&baked.bake.body.surface.vertices),
@@ -219,6 +243,11 @@ impl Prepared {
         add(stream, scale(1.0 / f64::from(MOMENTS), sum))
     }
 
+    /// What its bodies meet, if the scene is a [world](Scene::is_world).
+    pub fn surroundings(&self) -> Option<&Surroundings> {
+        self.surroundings.as_deref()
+    }
+
     /// What touches the ground.
     pub fn hull(&self) -> &Hull {
         &self.hull
@@ -235,6 +264,9 @@ impl Prepared {
         let lowest = self.hull.lowest(&self.scene.release);
         if lowest <= ground {
             return Err(ReleaseError::OnGround { lowest, ground });
+        }
+        if self.surroundings.is_some() {
+            return Ok(());
         }
         let body = self.body();
         let floats = body.mass <= self.scene.fluid.density * body.volume;
@@ -297,6 +329,8 @@ impl Prepared {
         });
         Fall {
             body: release.noise.body,
+            kind: 0,
+            scale: 1.0,
             full: states.len() >= most,
             states,
             ended,

@@ -5,6 +5,7 @@
 //! built-in scene by name or a file by path; [`BUILT_IN`] lists the built-in ones.
 
 mod body;
+mod crowd;
 mod grid;
 mod materials;
 mod place;
@@ -20,6 +21,7 @@ mod surroundings;
 #[cfg(test)]
 mod tests;
 mod wind;
+mod world;
 
 use std::path::PathBuf;
 
@@ -31,6 +33,7 @@ use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::Sampling;
 use serde_spanned::Spanned;
 
+pub use crowd::{Crowd, CrowdKind};
 use langevin_rigid_formats::export::Conditions;
 use langevin_rigid_formats::mesh::LengthUnit;
 use place::Document;
@@ -41,6 +44,7 @@ pub use registry::{BUILT_IN, BuiltIn, FindError, find};
 pub use run::StepsError;
 use seed::Seed;
 pub use wind::{SceneField, SceneWindError, WindPart};
+pub use world::{Contact, ContactShape, ObstacleGeometry, SceneObstacle, SceneWater, SceneWaves};
 
 /// A scene, checked and complete.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,6 +80,14 @@ pub struct Scene {
     pub tank: Option<Tank>,
     /// The fields that make the wind, on top of the velocity of the fluid.
     pub wind: Vec<WindPart>,
+    /// How bodies touch the ground and each other, if they do.
+    pub contact: Option<Contact>,
+    /// What stands in their way.
+    pub obstacles: Vec<SceneObstacle>,
+    /// The water that they may fall into.
+    pub water: Option<SceneWater>,
+    /// Many bodies in place of one.
+    pub crowd: Option<Crowd>,
 }
 
 /// Standard deviations of the normal scatter of an ensemble's releases, one draw per run.
@@ -94,6 +106,8 @@ pub struct Scatter {
 pub struct BodySource {
     /// The surface.
     pub geometry: Geometry,
+    /// A glTF file with the look of the body in exports, drawn where its mesh is.
+    pub visual: Option<PathBuf>,
     /// Mass and characteristic sizes.
     pub spec: BodySpec,
 }
@@ -178,6 +192,19 @@ impl Scene {
         let stop = run::stop(&doc, &raw.run, tank.map(|t| t.floor(release.position)))?;
         run::check_height(&doc, run, &stop, release.position[1])?;
         let seed = run.seed.as_ref().map_or(0, |seed| seed.get_ref().0);
+        let settings = run::settings(&doc, run, &raw.turbulence)?;
+        let contact = raw.contact.as_ref().map(|raw| world::contact(&doc, raw));
+        let contact = contact.transpose()?;
+        let material = contact.unwrap_or_default().material;
+        let water = raw.water.as_ref();
+        let water = water.map(|raw| world::water(&doc, raw, settings.gravity));
+        let crowd = raw.crowd.as_ref().map(|raw| crowd::resolve(&doc, raw));
+        if stop.time.is_none()
+            && (contact.is_some() || water.is_some() || crowd.is_some() || !raw.obstacle.is_empty())
+        {
+            let message = "where bodies touch, float or are many the ground does not end the run: give a `duration` (s)";
+            return Err(doc.error(raw.run.span(), message));
+        }
         let parts = wind::resolve(&doc, &raw.wind, stop.ground, fluid.velocity)?;
         Ok(Self {
             name: name.to_owned(),
@@ -185,7 +212,7 @@ impl Scene {
             settings: Settings {
                 separated: separated::resolve(&doc, &raw.separated)?,
                 release_speed: relative_speed(&release, &fluid, &parts, seed),
-                ..run::settings(&doc, run, &raw.turbulence)?
+                ..settings
             },
             time_step: run::time_step(&doc, &raw.run, &stop)?,
             seed,
@@ -200,6 +227,10 @@ impl Scene {
             stop,
             tank,
             wind: parts,
+            contact,
+            obstacles: world::obstacles(&doc, &raw.obstacle, material)?,
+            water: water.transpose()?,
+            crowd: crowd.transpose()?,
         })
     }
 
@@ -209,6 +240,15 @@ impl Scene {
     /// [`SceneWindError`]; for a scene that was read only where the file of a table is none.
     pub fn make_wind(&self) -> Result<Wind, SceneWindError> {
         wind::wind(&self.wind, self.seed)
+    }
+
+    /// Whether bodies meet more than their fluid: whether they touch, float or are many. The ground does not end a run
+    /// there, bodies come to lie on it.
+    pub fn is_world(&self) -> bool {
+        self.contact.is_some()
+            || !self.obstacles.is_empty()
+            || self.water.is_some()
+            || self.crowd.is_some()
     }
 
     /// Puts the scene under another model, with the integrator that it is meant for.
@@ -289,6 +329,14 @@ impl Scene {
                 .wind
                 .iter()
                 .map(wind::write)
+                .collect::<Result<_, _>>()?,
+            contact: self.contact.as_ref().map(world::write_contact),
+            water: self.water.as_ref().map(world::write_water),
+            crowd: self.crowd.as_ref().map(crowd::write),
+            obstacle: self
+                .obstacles
+                .iter()
+                .map(world::write_obstacle)
                 .collect::<Result<_, _>>()?,
         })
     }

@@ -15,8 +15,8 @@ use crate::contact::island::Islands;
 use crate::contact::narrow::{self, Placed};
 use crate::contact::solver::{self, Contact, InverseMass, Mover, Rules, Twist};
 use crate::contact::{Patch, Point};
-use crate::obstacle::{Geometry, Obstacle, pose};
 use crate::kind::Kind;
+use crate::obstacle::{Geometry, Obstacle, pose};
 use crate::sleep::{self, Bed, Rest};
 use crate::water::WaterSurface;
 
@@ -229,11 +229,21 @@ impl World {
     pub fn overlap(&self, body: usize) -> Option<Overlap> {
         let members = &self.members;
         let others = (0..members.len()).filter(|other| *other != body);
-        let pairs: Vec<(usize, usize)> =
-            others.map(|other| (other.min(body), other.max(body))).collect();
-        let mut met: Vec<Met> = pairs.iter().flat_map(|pair| self.bodies_met(*pair, 0.0)).collect();
+        let pairs: Vec<(usize, usize)> = others
+            .map(|other| (other.min(body), other.max(body)))
+            .collect();
+        let mut met: Vec<Met> = pairs
+            .iter()
+            .flat_map(|pair| self.bodies_met(*pair, 0.0))
+            .collect();
         met.extend(self.obstacles_met(body, 0.0));
-        let depth = |met: &Met| -met.patch.points.iter().map(|p| p.gap).fold(f64::INFINITY, f64::min);
+        let depth = |met: &Met| {
+            -met.patch
+                .points
+                .iter()
+                .map(|p| p.gap)
+                .fold(f64::INFINITY, f64::min)
+        };
         let (deepest, met) = met
             .iter()
             .map(|met| (depth(met), met))
@@ -309,7 +319,12 @@ impl World {
 
     fn bodies_met(&self, (a, b): (usize, usize), reach: f64) -> Vec<Met> {
         let (first, second) = (&self.members[a], &self.members[b]);
-        let skin = SKIN * first.kind.shape().radius().min(second.kind.shape().radius());
+        let skin = SKIN
+            * first
+                .kind
+                .shape()
+                .radius()
+                .min(second.kind.shape().radius());
         let mut met = Vec::new();
         for (part_a, hull_a) in parts(first) {
             for (part_b, hull_b) in parts(second) {
@@ -334,7 +349,10 @@ impl World {
         let around = bounds(member).loosened(reach);
         let mut met = Vec::new();
         for (number, obstacle) in self.obstacles.iter().enumerate() {
-            if obstacle.bounds().is_some_and(|bounds| !bounds_meet(&bounds, &around)) {
+            if obstacle
+                .bounds()
+                .is_some_and(|bounds| !bounds_meet(&bounds, &around))
+            {
                 continue;
             }
             for (part_b, hull) in parts(member) {
@@ -471,7 +489,10 @@ impl World {
                 if !self.wind.is_empty() {
                     input.flow = self.wind.flow(state.position, state.time, self.stream);
                 }
-                match member.kind.step(&mut state, dt, &input, self.water.as_ref()) {
+                match member
+                    .kind
+                    .step(&mut state, dt, &input, self.water.as_ref())
+                {
                     Ok(()) => Ok(state),
                     Err(error) => Err(WorldError { body, error }),
                 }
@@ -489,7 +510,10 @@ impl World {
             let moves = |body: usize| (!self.is_asleep(body)).then_some(body);
             let (a, material) = match key.obstacle {
                 Some(number) => (None, self.obstacles[number as usize].material),
-                None => (Some(key.a as usize), self.members[key.a as usize].kind.material()),
+                None => (
+                    Some(key.a as usize),
+                    self.members[key.a as usize].kind.material(),
+                ),
             };
             let material = material.with(second.kind.material());
             let frame = placed(&second.state);
@@ -519,12 +543,7 @@ impl World {
     }
 
     /// Solves island by island, on all cores.
-    fn solve(
-        &self,
-        free: &[State],
-        contacts: Vec<(Key, Vector, Contact)>,
-        dt: f64,
-    ) -> Solved {
+    fn solve(&self, free: &[State], contacts: Vec<(Key, Vector, Contact)>, dt: f64) -> Solved {
         let mut islands = Islands::new(self.members.len());
         for (_, _, contact) in &contacts {
             if let (Some(a), Some(b)) = (contact.a, contact.b) {
@@ -533,7 +552,9 @@ impl World {
         }
         let mut solved = Solved {
             states: free.to_vec(),
-            island: (0..self.members.len()).map(|body| islands.root(body)).collect(),
+            island: (0..self.members.len())
+                .map(|body| islands.root(body))
+                .collect(),
             held: Vec::with_capacity(contacts.len()),
         };
         let mut of_island: Vec<Vec<usize>> = vec![Vec::new(); self.members.len()];
@@ -588,7 +609,9 @@ impl World {
                 let state = &free[body];
                 Mover {
                     inverse_mass: InverseMass::new(
-                        &self.members[body].kind.inverse_mass(state, self.water.as_ref()),
+                        &self.members[body]
+                            .kind
+                            .inverse_mass(state, self.water.as_ref()),
                         placed(state).rotation,
                     ),
                     velocity: Twist {
@@ -683,7 +706,12 @@ fn placed(state: &State) -> Pose {
 
 fn bounds(member: &Member) -> Aabb {
     let pose = placed(&member.state);
-    let points = member.kind.shape().hulls().iter().flat_map(|hull| &hull.points);
+    let points = member
+        .kind
+        .shape()
+        .hulls()
+        .iter()
+        .flat_map(|hull| &hull.points);
     Aabb::from_points(points.map(|p| pose * *p))
 }
 

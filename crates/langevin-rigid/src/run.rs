@@ -22,6 +22,8 @@ pub enum Ending {
     Time,
     /// The body touched the ground.
     Ground,
+    /// All bodies had come to rest.
+    Rest,
     /// The observer asked for it.
     Stopped,
 }

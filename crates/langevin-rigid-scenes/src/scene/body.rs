@@ -1,6 +1,6 @@
 //! The body of a scene: a parametric shape by name, or a mesh file.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use langevin_rigid_bake::TriMesh;
 use langevin_rigid_bake::body::{BodyBakeError, BodySpec, mass_properties};
@@ -23,11 +23,16 @@ pub(super) fn resolve(doc: &Document, raw: &Spanned<RawBody>) -> Result<BodySour
             let (geometry, mesh, thickness) = parametric(doc, body, shape)?;
             let spec = spec(doc, raw, Some(thickness))?;
             weigh(doc, raw, &mesh, &spec)?;
-            Ok(BodySource { geometry, spec })
+            Ok(BodySource {
+                geometry,
+                spec,
+                visual: visual(body),
+            })
         }
         (None, Some(mesh)) => Ok(BodySource {
             geometry: from_file(doc, body, mesh)?,
             spec: spec(doc, raw, None)?,
+            visual: visual(body),
         }),
         (Some(_), Some(mesh)) => {
             let message = "a body has either a `shape` or a `mesh`, not both";
@@ -41,6 +46,11 @@ pub(super) fn resolve(doc: &Document, raw: &Spanned<RawBody>) -> Result<BodySour
             Err(doc.error(raw.span(), message))
         }
     }
+}
+
+fn visual(body: &RawBody) -> Option<PathBuf> {
+    let path = body.visual.as_ref();
+    path.map(|path| path.get_ref().into())
 }
 
 /// Refuses regions that the body does not fit; those of a mesh file are seen when it is read.
@@ -186,6 +196,9 @@ pub(super) fn write(source: &BodySource) -> Result<RawBody, WriteSceneError> {
             ..shape::write(shape)
         },
     };
+    if let Some(visual) = &source.visual {
+        raw.visual = given(utf8(visual, "its visual")?);
+    }
     let spec = &source.spec;
     raw.density = spec.density.and_then(given);
     raw.mass = spec.mass.and_then(given);

@@ -33,9 +33,77 @@ pub(super) struct RawScene {
     pub(super) tank: Option<RawTank>,
     #[serde(default)]
     pub(super) separated: RawSeparated,
+    pub(super) contact: Option<RawContact>,
+    pub(super) water: Option<Spanned<RawWater>>,
+    pub(super) crowd: Option<Spanned<RawCrowd>>,
     // Lists of tables last, as TOML has them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) wind: Vec<Spanned<RawWind>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) obstacle: Vec<Spanned<RawObstacle>>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawContact {
+    pub(super) friction: Given<f64>,
+    pub(super) restitution: Given<f64>,
+    pub(super) shape: Given<String>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawObstacle {
+    pub(super) shape: Given<String>,
+    pub(super) size: Given<Vec<f64>>,
+    pub(super) position: Given<Vec<f64>>,
+    pub(super) normal: Given<Vec<f64>>,
+    pub(super) tilt: Given<f64>,
+    pub(super) tilt_axis: Given<Vec<f64>>,
+    pub(super) orientation: Given<Vec<f64>>,
+    pub(super) mesh: Given<String>,
+    pub(super) unit: Given<String>,
+    pub(super) friction: Given<f64>,
+    pub(super) restitution: Given<f64>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawWater {
+    pub(super) level: Given<f64>,
+    pub(super) preset: Given<String>,
+    pub(super) density: Given<f64>,
+    pub(super) viscosity: Given<f64>,
+    pub(super) current: Given<Vec<f64>>,
+    pub(super) waves: Option<Spanned<RawWaves>>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawWaves {
+    pub(super) height: Given<f64>,
+    pub(super) period: Given<f64>,
+    pub(super) heading: Given<f64>,
+    pub(super) seed: Given<Seed>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawCrowd {
+    pub(super) count: Given<i64>,
+    pub(super) over: Given<Vec<f64>>,
+    pub(super) during: Given<f64>,
+    pub(super) orientation: Given<String>,
+    pub(super) sizes: Given<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) kinds: Vec<Spanned<RawCrowdKind>>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawCrowdKind {
+    pub(super) scene: Given<String>,
+    pub(super) share: Given<f64>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -65,6 +133,7 @@ pub(super) struct RawBody {
     pub(super) triangles: Given<i64>,
     pub(super) mesh: Given<String>,
     pub(super) unit: Given<String>,
+    pub(super) visual: Given<String>,
     pub(super) density: Given<f64>,
     pub(super) mass: Given<f64>,
     pub(super) centre_of_mass: Given<Vec<f64>>,

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use langevin_rigid::{UnknownName, choose};
 
-use super::{Geometry, Scene, SceneError, SceneField};
+use super::{Geometry, ObstacleGeometry, Scene, SceneError, SceneField};
 
 /// A scene that is part of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +40,10 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
     "business-card",
     "autumn",
     "fan",
+    "leaves",
+    "pond",
+    "coin-toss",
+    "ball-up",
     "sheet-a6",
     "table2-ellipsoid-320-1ms",
     "table2-ellipsoid-320-5ms",
@@ -94,7 +98,7 @@ pub enum FindError {
 
 /// Opens the built-in scene of that name, or else the scene file at that path.
 ///
-/// The path of a mesh or a wind in a file becomes relative to the current folder.
+/// The paths in a file (meshes, looks, winds, other scenes) become relative to the current folder.
 ///
 /// # Errors
 /// See [`FindError`].
@@ -122,6 +126,20 @@ pub fn find(name: &str) -> Result<Scene, FindError> {
     if let Some(folder) = path.parent() {
         if let Geometry::Mesh { path, .. } = &mut scene.body.geometry {
             *path = folder.join(&path);
+        }
+        if let Some(visual) = &mut scene.body.visual {
+            *visual = folder.join(&visual);
+        }
+        for obstacle in &mut scene.obstacles {
+            if let ObstacleGeometry::Mesh { path, .. } = &mut obstacle.geometry {
+                *path = folder.join(&path);
+            }
+        }
+        for kind in scene.crowd.iter_mut().flat_map(|crowd| &mut crowd.kinds) {
+            let built_in = BUILT_IN.iter().any(|scene| scene.name == kind.scene);
+            if !built_in {
+                kind.scene = folder.join(&kind.scene).display().to_string();
+            }
         }
         for part in &mut scene.wind {
             if let SceneField::Table { path } = &mut part.field {

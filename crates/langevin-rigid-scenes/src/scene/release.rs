@@ -60,7 +60,7 @@ pub(super) fn write(release: &State, carried: f64) -> RawRelease {
     }
 }
 
-fn orientation(doc: &Document, raw: &RawRelease) -> Result<[f64; 4], SceneError> {
+pub(super) fn orientation(doc: &Document, raw: &RawRelease) -> Result<[f64; 4], SceneError> {
     let Some(given) = &raw.orientation else {
         return tilted(doc, raw);
     };
