@@ -5,6 +5,7 @@
 //! seed and the number of the run. [`Statistics::new`] and [`landings_csv`] sum up the [`Fall`]s.
 
 mod fall;
+mod lying;
 mod motion_class;
 mod scatter;
 mod side_by_side;
@@ -18,10 +19,11 @@ use rayon::prelude::*;
 
 use crate::prepared::Prepared;
 pub use fall::{Fall, FallEnding, SAMPLES_PER_SECOND};
+pub use lying::Lying;
 pub use motion_class::{MotionClass, MotionTracker};
 pub use scatter::scattered_release;
 pub use side_by_side::side_by_side;
-pub use statistics::{Statistics, landings_csv};
+pub use statistics::{Faces, Statistics, landings_csv};
 
 /// Drops the body of a scene once for each of `runs`, on all cores and in lanes.
 ///
@@ -29,7 +31,8 @@ pub use statistics::{Statistics, landings_csv};
 /// [`scattered_release`]. The falls come in the order of their runs, with the same bits on any
 /// number of threads and however the runs are shared among processes. Of work that `progress` cancels, the falls that are complete are given.
 ///
-/// The floor of a tank ends a fall when the body's lowest point touches it.
+/// The ground, and the floor of a tank, ends a fall when the body's lowest point touches it. In a
+/// [world](crate::scene::Scene::is_world) it goes on until the body lies still, which [`Fall::lying`] tells.
 ///
 /// ```
 /// use langevin_rigid_scenes::{ensemble, prepared::Prepared, scene::Scene};

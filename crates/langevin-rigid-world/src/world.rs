@@ -176,6 +176,11 @@ impl World {
         self.members.len() - 1
     }
 
+    /// Sets the clock (s) of a world without bodies.
+    pub fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
     /// Time since the begin (s).
     pub fn time(&self) -> f64 {
         self.time

@@ -76,6 +76,8 @@ pub(super) struct Animation {
 pub(super) struct Keyframes {
     /// Number of the body.
     pub(super) body: u32,
+    /// The frame at which it appears, if others are there before it.
+    pub(super) appears: Option<f64>,
     /// Numbers of its frames, whole but for the last and for keys between frames.
     pub(super) numbers: Vec<f64>,
     /// Times of its keys, as the file has them (s).
@@ -109,7 +111,12 @@ impl Animation {
                     rounded_time: &rounded_time,
                     length,
                 };
-                Ok(Keyframes::new(trajectory.body, &track, keys.choose()))
+                let keyframes = Keyframes::new(trajectory.body, &track, keys.choose());
+                let first = frames.number(track.start());
+                Ok(Keyframes {
+                    appears: (first > 0.0).then_some(first),
+                    ..keyframes
+                })
             })
             .collect();
         Ok(Self {
@@ -179,6 +186,7 @@ impl Keyframes {
         }
         Self {
             body,
+            appears: None,
             numbers,
             times,
             positions: poses.iter().map(|pose| pose.position).collect(),

@@ -54,7 +54,12 @@ pub(super) fn glb(
             None => Shape::Mesh(file.mesh(recording, kind)),
         })
         .collect();
-    let animations = file.animation(recording.conditions.scene, &animation);
+    let animations = file.animation(
+        recording.conditions.scene,
+        recording.bodies,
+        &animation,
+        frames,
+    );
     let mut run = of_run(recording, Up::Y, fps, animation.deviation);
     let dressed = recording.kinds.iter().filter(|kind| kind.visual.is_some());
     let dressed: Map<String, Value> = dressed
@@ -218,7 +223,13 @@ impl File {
         self.lists[List::Meshes].len() - 1
     }
 
-    fn animation(&mut self, name: &str, animation: &Animation) -> Value {
+    fn animation(
+        &mut self,
+        name: &str,
+        bodies: &[RecordedBody<'_>],
+        animation: &Animation,
+        frames: Frames,
+    ) -> Value {
         let mut shared = HashMap::new();
         let (mut samplers, mut channels) = (Vec::new(), Vec::new());
         for (node, keyframes) in animation.bodies.iter().enumerate() {
@@ -233,6 +244,19 @@ impl File {
                 }));
                 samplers.push(json!({
                     "input": input, "output": output, "interpolation": "LINEAR",
+                }));
+            }
+            if let Some(time) = keyframes.appears.map(|number| frames.time(number)) {
+                // Until then it has no size: the format has no other way to hide it.
+                let scale = bodies[node].scale;
+                let input = self.vectors(&[[frames.start], [time]], None);
+                self.bounds(input, &[[frames.start], [time]]);
+                let output = self.vectors(&[[0.0; 3], [scale; 3]], None);
+                channels.push(json!({
+                    "sampler": samplers.len(), "target": { "node": node, "path": "scale" },
+                }));
+                samplers.push(json!({
+                    "input": input, "output": output, "interpolation": "STEP",
                 }));
             }
         }

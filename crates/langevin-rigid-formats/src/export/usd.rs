@@ -196,6 +196,13 @@ impl<'a> Layer<'a> {
             let _ = writeln!(text, "        double3 xformOp:scale = {scale}");
             order.push("\"xformOp:scale\"");
         }
+        if let Some(number) = keyframes.appears {
+            let appears = first + number;
+            let _ = writeln!(
+                text,
+                "        token visibility.timeSamples = {{{first}:\"invisible\",{appears}:\"inherited\"}}"
+            );
+        }
         let _ = writeln!(
             text,
             "        uniform token[] xformOpOrder = {}\n    }}",

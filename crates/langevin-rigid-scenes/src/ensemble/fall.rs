@@ -4,6 +4,7 @@ use langevin_rigid::linalg::Vec3;
 use langevin_rigid::{Batch, NoiseStream, State};
 use serde::{Deserialize, Serialize};
 
+use super::lying::Lying;
 use super::motion_class::MotionTracker;
 use super::scatter::scattered_release;
 use crate::advance::{advance, blown, is_carried};
@@ -17,7 +18,7 @@ pub const SAMPLES_PER_SECOND: u32 = 60;
 const PATIENCE: u32 = 16;
 
 /// Time between two runs in the wind of the scene (s): each meets other gusts.
-const APART: f64 = 3600.0;
+pub(super) const APART: f64 = 3600.0;
 
 /// Why a fall ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -58,6 +59,9 @@ pub struct Fall {
     pub samples: Vec<Vec3>,
     /// How the body swung and turned over.
     pub motion: MotionTracker,
+    /// How it came to rest, in a scene where it can.
+    #[serde(default)]
+    pub lying: Option<Lying>,
 }
 
 /// What all falls of an ensemble share.
@@ -67,10 +71,20 @@ pub(super) struct Setup<'a> {
 }
 
 /// A fall under way.
-struct Falling {
+pub(super) struct Falling {
     release: Release,
     motion: MotionTracker,
     samples: Vec<Vec3>,
+}
+
+impl Falling {
+    pub(super) fn new(setup: &Setup<'_>, release: Release) -> Self {
+        Self {
+            motion: MotionTracker::new(setup.thin_axis, &release.state),
+            samples: vec![setup.relative_to_release(release.state.position)],
+            release,
+        }
+    }
 }
 
 /// What becomes of a run while it is carried.
@@ -90,6 +104,16 @@ impl Setup<'_> {
         cancelled: &dyn Fn() -> bool,
         done: &dyn Fn(),
     ) -> Vec<Fall> {
+        if let Some(surroundings) = self.prepared.surroundings() {
+            let going = runs.iter().take_while(|_| !cancelled());
+            return going
+                .map(|run| {
+                    let fall = self.fall_in_world(surroundings, *run);
+                    done();
+                    fall
+                })
+                .collect();
+        }
         let mut ended = Vec::new();
         let mut end = |fall: Fall| {
             ended.push(fall);
@@ -174,11 +198,7 @@ impl Setup<'_> {
             },
         };
         let mut state = release.state;
-        let mut fall = Falling {
-            motion: MotionTracker::new(self.thin_axis, &state),
-            samples: vec![self.relative_to_release(state.position)],
-            release,
-        };
+        let mut fall = Falling::new(self, release);
         loop {
             if let Some(ending) = self.ending(&state) {
                 return Start::Over(self.ended(fall, &state, ending));
@@ -195,12 +215,12 @@ impl Setup<'_> {
         }
     }
 
-    fn follow(&self, fall: &mut Falling, before: &State, after: &State) {
+    pub(super) fn follow(&self, fall: &mut Falling, before: &State, after: &State) {
         fall.motion.follow(after);
         self.sample(before, after, &mut fall.samples);
     }
 
-    fn ended(&self, fall: Falling, state: &State, ending: FallEnding) -> Fall {
+    pub(super) fn ended(&self, fall: Falling, state: &State, ending: FallEnding) -> Fall {
         Fall {
             run: fall.release.noise.body,
             ending,
@@ -208,6 +228,7 @@ impl Setup<'_> {
             end: self.relative_to_release(state.position),
             samples: fall.samples,
             motion: fall.motion,
+            lying: None,
         }
     }
 
@@ -244,7 +265,7 @@ impl Setup<'_> {
     }
 
     /// x, depth and z from the scene's release point.
-    fn relative_to_release(&self, position: Vec3) -> Vec3 {
+    pub(super) fn relative_to_release(&self, position: Vec3) -> Vec3 {
         let origin = self.prepared.scene().release.position;
         [
             position[0] - origin[0],

@@ -148,7 +148,7 @@ impl Surroundings {
     }
 
     /// A kind of bodies at so many times its size.
-    pub(super) fn kind(&self, number: usize, scale: f64) -> Result<Arc<Kind>, SurroundingsError> {
+    pub(crate) fn kind(&self, number: usize, scale: f64) -> Result<Arc<Kind>, SurroundingsError> {
         let CrowdBody {
             scene,
             baked,
