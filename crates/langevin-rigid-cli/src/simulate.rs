@@ -59,7 +59,8 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
         .iter()
         .map(|fall| Trajectory::new(fall.body, &fall.states))
         .collect();
-    let shot = Shot::new(options, &prepared, &trajectories[0].poses);
+    let poses = &trajectories[0].poses;
+    let shot = Shot::new(options.picture, options.view, &prepared, poses);
     let run = Recording {
         conditions: scene.conditions(),
         bake: &baked.bake,

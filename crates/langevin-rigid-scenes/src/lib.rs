@@ -50,6 +50,7 @@
 //! - [`prepared`]: a scene made ready, and the loop that drops its body.
 //! - [`advance`](mod@advance): one step of a scene, for hosts with a loop of their own.
 //! - [`ensemble`]: many falls, what kind of motion each is, and their statistics.
+//! - [`direct`]: releases whose fall does what is asked.
 //! - [`regimes`]: how discs and strips fall over Reynolds number and inertia, against experiments.
 //!
 //! # Conventions
@@ -72,7 +73,9 @@
 
 pub mod advance;
 pub mod baking;
+pub mod direct;
 pub mod ensemble;
+mod lanes;
 pub mod prepared;
 pub mod regimes;
 pub mod scene;

@@ -5,6 +5,7 @@
 //! built-in scene by name or a file by path; [`BUILT_IN`] lists the built-in ones.
 
 mod body;
+mod direct;
 mod grid;
 mod materials;
 mod place;
@@ -16,6 +17,7 @@ mod run;
 mod seed;
 mod separated;
 mod shape;
+mod steering;
 mod surroundings;
 #[cfg(test)]
 mod tests;
@@ -31,6 +33,7 @@ use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_bake::turbulence::Sampling;
 use serde_spanned::Spanned;
 
+pub use direct::{Direct, Freedom, Landing, Path, Ring, Side};
 use langevin_rigid_formats::export::Conditions;
 use langevin_rigid_formats::mesh::LengthUnit;
 use place::Document;
@@ -40,6 +43,7 @@ use raw::{RawFluid, RawPicture, RawRun, RawScatter, RawScene, RawTank, given};
 pub use registry::{BUILT_IN, BuiltIn, FindError, find};
 pub use run::StepsError;
 use seed::Seed;
+pub use steering::Steering;
 pub use wind::{SceneField, SceneWindError, WindPart};
 
 /// A scene, checked and complete.
@@ -76,6 +80,12 @@ pub struct Scene {
     pub tank: Option<Tank>,
     /// The fields that make the wind, on top of the velocity of the fluid.
     pub wind: Vec<WindPart>,
+    /// Which of the seed's streams of noise a single run has.
+    pub stream: u32,
+    /// The force that steers the body, if any.
+    pub steering: Option<Steering>,
+    /// What its fall shall do, for [`crate::direct`].
+    pub direct: Option<Direct>,
 }
 
 /// Standard deviations of the normal scatter of an ensemble's releases, one draw per run.
@@ -179,6 +189,11 @@ impl Scene {
         run::check_height(&doc, run, &stop, release.position[1])?;
         let seed = run.seed.as_ref().map_or(0, |seed| seed.get_ref().0);
         let parts = wind::resolve(&doc, &raw.wind, stop.ground, fluid.velocity)?;
+        let surroundings = direct::Surroundings {
+            ground: stop.ground.is_some(),
+            tank: tank.is_some(),
+            steered: raw.steering.is_some(),
+        };
         Ok(Self {
             name: name.to_owned(),
             description: raw.description.clone().unwrap_or_default(),
@@ -200,6 +215,9 @@ impl Scene {
             stop,
             tank,
             wind: parts,
+            stream: run::stream(&doc, run)?,
+            steering: steering::resolve(&doc, raw.steering.as_ref())?,
+            direct: direct::resolve(&doc, raw.direct.as_ref(), &surroundings)?,
         })
     }
 
@@ -270,6 +288,10 @@ impl Scene {
                     ground: self.stop.ground.and_then(given),
                     seed: given(Seed(self.seed)),
                     gravity: given(self.settings.gravity.to_vec()),
+                    reynolds: self.settings.reynolds.and_then(given),
+                    stream: (self.stream != 0)
+                        .then(|| i64::from(self.stream))
+                        .and_then(given),
                 },
             ),
             turbulence: grid::write(&self.grid, self.settings.turbulence_length),
@@ -285,6 +307,8 @@ impl Scene {
             tank: self.tank.map(|tank| RawTank {
                 size: Spanned::new(0..0, tank.size.to_vec()),
             }),
+            steering: self.steering.as_ref().map(steering::write),
+            direct: self.direct.as_ref().map(direct::write).transpose()?,
             wind: self
                 .wind
                 .iter()

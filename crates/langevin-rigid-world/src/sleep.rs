@@ -4,8 +4,8 @@
 //! pose stirs those that slept against it.
 
 use langevin_rigid::State;
-use langevin_rigid::linalg::{Quat, Vec3};
 use langevin_rigid::linalg::vector::{norm, sub};
+use langevin_rigid::linalg::{Quat, Vec3};
 
 /// How long a body stays near a pose before it sleeps (s).
 const DROWSY: f64 = 0.5;

@@ -239,11 +239,21 @@ impl World {
     pub fn overlap(&self, body: usize) -> Option<Overlap> {
         let members = &self.members;
         let others = (0..members.len()).filter(|other| *other != body);
-        let pairs: Vec<(usize, usize)> =
-            others.map(|other| (other.min(body), other.max(body))).collect();
-        let mut met: Vec<Met> = pairs.iter().flat_map(|pair| self.bodies_met(*pair, 0.0)).collect();
+        let pairs: Vec<(usize, usize)> = others
+            .map(|other| (other.min(body), other.max(body)))
+            .collect();
+        let mut met: Vec<Met> = pairs
+            .iter()
+            .flat_map(|pair| self.bodies_met(*pair, 0.0))
+            .collect();
         met.extend(self.obstacles_met(body, 0.0));
-        let depth = |met: &Met| -met.patch.points.iter().map(|p| p.gap).fold(f64::INFINITY, f64::min);
+        let depth = |met: &Met| {
+            -met.patch
+                .points
+                .iter()
+                .map(|p| p.gap)
+                .fold(f64::INFINITY, f64::min)
+        };
         let (deepest, met) = met
             .iter()
             .map(|met| (depth(met), met))
@@ -343,7 +353,10 @@ impl World {
         let around = bounds(member).loosened(reach);
         let mut met = Vec::new();
         for (number, obstacle) in self.obstacles.iter().enumerate() {
-            if obstacle.bounds().is_some_and(|bounds| !bounds_meet(&bounds, &around)) {
+            if obstacle
+                .bounds()
+                .is_some_and(|bounds| !bounds_meet(&bounds, &around))
+            {
                 continue;
             }
             for (part_b, hull) in parts(member) {
@@ -471,7 +484,10 @@ impl World {
             let moves = |body: usize| (!self.is_asleep(body)).then_some(body);
             let (a, material) = match key.obstacle {
                 Some(number) => (None, self.obstacles[number as usize].material),
-                None => (Some(key.a as usize), self.members[key.a as usize].kind.material),
+                None => (
+                    Some(key.a as usize),
+                    self.members[key.a as usize].kind.material,
+                ),
             };
             let material = material.with(second.kind.material);
             let frame = placed(&second.state);
@@ -501,12 +517,7 @@ impl World {
     }
 
     /// Solves island by island, on all cores.
-    fn solve(
-        &self,
-        free: &[State],
-        contacts: Vec<(Key, Vector, Contact)>,
-        dt: f64,
-    ) -> Solved {
+    fn solve(&self, free: &[State], contacts: Vec<(Key, Vector, Contact)>, dt: f64) -> Solved {
         let mut islands = Islands::new(self.members.len());
         for (_, _, contact) in &contacts {
             if let (Some(a), Some(b)) = (contact.a, contact.b) {
@@ -515,7 +526,9 @@ impl World {
         }
         let mut solved = Solved {
             states: free.to_vec(),
-            island: (0..self.members.len()).map(|body| islands.root(body)).collect(),
+            island: (0..self.members.len())
+                .map(|body| islands.root(body))
+                .collect(),
             held: Vec::with_capacity(contacts.len()),
         };
         let mut of_island: Vec<Vec<usize>> = vec![Vec::new(); self.members.len()];
@@ -671,7 +684,12 @@ fn placed(state: &State) -> Pose {
 
 fn bounds(member: &Member) -> Aabb {
     let pose = placed(&member.state);
-    let points = member.kind.shape.hulls().iter().flat_map(|hull| &hull.points);
+    let points = member
+        .kind
+        .shape
+        .hulls()
+        .iter()
+        .flat_map(|hull| &hull.points);
     Aabb::from_points(points.map(|p| pose * *p))
 }
 

@@ -129,9 +129,14 @@ struct Row {
 
 impl Row {
     fn new(contact: &Contact, direction: Vector, movers: &[Mover]) -> Self {
-        let (moment_a, moment_b) = (contact.arm_a.cross(direction), contact.arm_b.cross(direction));
+        let (moment_a, moment_b) = (
+            contact.arm_a.cross(direction),
+            contact.arm_b.cross(direction),
+        );
         let push = |mover: Option<usize>, moment| {
-            mover.map_or_else(Twist::default, |i| movers[i].inverse_mass.times(direction, moment))
+            mover.map_or_else(Twist::default, |i| {
+                movers[i].inverse_mass.times(direction, moment)
+            })
         };
         let (push_a, push_b) = (push(contact.a, moment_a), push(contact.b, moment_b));
         let response = |push: &Twist, moment| direction.dot(push.linear) + push.angular.dot(moment);
@@ -142,7 +147,11 @@ impl Row {
             moment_b,
             push_a,
             push_b,
-            mass: if compliance > 0.0 { 1.0 / compliance } else { 0.0 },
+            mass: if compliance > 0.0 {
+                1.0 / compliance
+            } else {
+                0.0
+            },
             impulse: 0.0,
             before: 0.0,
         }
@@ -248,7 +257,11 @@ fn relax(contact: &Contact, rows: &mut [Row; 3], movers: &mut [Mover], dt: f64) 
     let change = impulse - normal.impulse;
     normal.impulse = impulse;
     normal.push(contact, movers, change, velocity_mut);
-    let mut largest = if normal.mass > 0.0 { (change / normal.mass).abs() } else { 0.0 };
+    let mut largest = if normal.mass > 0.0 {
+        (change / normal.mass).abs()
+    } else {
+        0.0
+    };
 
     let wanted = [0, 1].map(|k| {
         let row = &friction[k];
@@ -300,13 +313,7 @@ fn hold_energy(contacts: &[Contact], rows: &mut [[Row; 3]], movers: &mut [Mover]
 
 /// Sends back what met in this step at `restitution` times the speed of approach (Newton's hypothesis), as far as the
 /// energy `lost` so far (J) pays for it.
-fn bounce(
-    contacts: &[Contact],
-    rows: &[[Row; 3]],
-    movers: &mut [Mover],
-    rules: &Rules,
-    lost: f64,
-) {
+fn bounce(contacts: &[Contact], rows: &[[Row; 3]], movers: &mut [Mover], rules: &Rules, lost: f64) {
     let bouncing: Vec<(&Contact, &Row, f64)> = contacts
         .iter()
         .zip(rows)
@@ -316,7 +323,8 @@ fn bounce(
         .map(|(contact, rows)| (contact, &rows[0], -contact.restitution * rows[0].before))
         .collect();
     let speeds = |movers: &[Mover]| -> Vec<f64> {
-        let speed = |(contact, row, _): &(&Contact, &Row, f64)| row.speed(contact, movers, velocity);
+        let speed =
+            |(contact, row, _): &(&Contact, &Row, f64)| row.speed(contact, movers, velocity);
         bouncing.iter().map(speed).collect()
     };
     let before = speeds(movers);
