@@ -395,7 +395,7 @@ mod tests {
     fn what_does_not_go_together_is_refused_at_its_place() {
         for (asked, place, words) in [
             ("[direct]", (5, 1), "asks for nothing"),
-            ("[direct.free]\ntilt = 9", (5, 1), "asks for nothing"),
+            ("[direct.free]\ntilt = 9", (5, 2), "asks for nothing"),
             ("[direct.land]", (5, 1), "`land` needs"),
             ("[direct.land]\nat = [0, 0, 0]", (6, 6), "needs `within`"),
             ("[direct.land]\nwithin = 1", (6, 10), "needs `at`"),
