@@ -10,6 +10,7 @@ use anyhow::{Result, bail};
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::linalg::vector::norm;
 use langevin_rigid_bake::progress::Silent;
+use langevin_rigid_formats::budget::Need;
 use langevin_rigid_formats::files::{self, Claim};
 use langevin_rigid_formats::trajectory::Trajectory;
 use langevin_rigid_scenes::direct::{self, Directed, Found};
@@ -21,7 +22,7 @@ use crate::arguments::{Direct, Shown};
 use crate::bars::Bars;
 use crate::pictures::Shot;
 use crate::simulate::resolved;
-use crate::{cache, say};
+use crate::{cache, forecast, say};
 
 /// `best.json`; SI units.
 #[derive(Debug, Serialize)]
@@ -79,6 +80,7 @@ pub(crate) fn direct(options: &Direct, bars: &Bars) -> Result<()> {
     let _claim = Claim::folder(&folder)?;
     let prepared = cache::prepare(scene, bars)?;
     prepared.check_release()?;
+    forecast(&prepared)?;
 
     let started = Instant::now();
     let found = bars.stoppable(|| direct::search(&prepared, bars))?;
@@ -90,6 +92,15 @@ pub(crate) fn direct(options: &Direct, bars: &Bars) -> Result<()> {
     let report = report(&prepared, &found, seconds, bars.interrupted());
     write_all(&folder, &prepared, &found, &report)?;
     tell(options, &folder, &report)
+}
+
+fn forecast(prepared: &Prepared) -> Result<()> {
+    let scene = prepared.scene();
+    let falls = scene.direct.as_ref().map_or(0, |asked| asked.falls);
+    let seconds = forecast::seconds(scene, prepared.body());
+    let steps = f64::from(falls) * (seconds / scene.time_step).max(1.0);
+    let need = Need::new(direct::memory(seconds), steps);
+    forecast::check(need, &format!("`--falls {falls}`"))
 }
 
 fn report(prepared: &Prepared, found: &Found, seconds: f64, interrupted: bool) -> Report {

@@ -44,7 +44,7 @@ mod tests;
 use langevin_rigid::State;
 use langevin_rigid_bake::progress::Progress;
 
-use crate::ensemble::FallEnding;
+use crate::ensemble::{FallEnding, SAMPLES_PER_SECOND, TOGETHER};
 use crate::prepared::{Prepared, Release};
 use crate::scene::{Direct, Scene, Steering};
 pub use motion::Motion;
@@ -126,6 +126,14 @@ impl Directed {
 pub fn search(prepared: &Prepared, progress: &dyn Progress) -> Result<Found, DirectError> {
     let direct = asked(prepared)?;
     search::search(prepared, direct, progress)
+}
+
+/// Memory that a search over falls of so many seconds takes at once, about (bytes).
+pub fn memory(seconds: f64) -> f64 {
+    // Lists grow to twice what they hold.
+    let fall =
+        2.0 * seconds * f64::from(SAMPLES_PER_SECOND) * size_of::<glimpses::Glimpse>() as f64;
+    fall * TOGETHER as f64 * rayon::current_num_threads() as f64
 }
 
 /// How far a fall is from each thing that the scene asks, as in [`Directed::misses`].

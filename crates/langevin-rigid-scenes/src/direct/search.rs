@@ -91,8 +91,9 @@ impl Search<'_> {
         let mut first = 0;
         while first < falls && !self.progress.cancelled() {
             let end = falls.min(first.saturating_add(ROUND));
-            let candidates = (first..end).map(|number| self.space.draw(number)).collect();
-            self.try_all(candidates);
+            let numbers = first..end;
+            let candidates: Vec<_> = numbers.map(|number| self.space.draw(number)).collect();
+            self.try_all(&candidates);
             first = end;
         }
         self.done.load(Ordering::Relaxed)
@@ -115,11 +116,11 @@ impl Search<'_> {
                     return;
                 }
                 let parents = parents.iter().map(|tried| &tried.candidate).cycle();
-                let candidates = (number..part)
+                let candidates: Vec<_> = (number..part)
                     .zip(parents)
                     .map(|(number, parent)| self.space.near(parent, spread, number))
                     .collect();
-                self.try_all(candidates);
+                self.try_all(&candidates);
                 number = part;
             }
             spread *= NARROWER;
@@ -131,7 +132,7 @@ impl Search<'_> {
         best.len() == self.best && best.iter().all(|tried| tried.score == 0.0)
     }
 
-    fn try_all(&mut self, candidates: Vec<Candidate>) {
+    fn try_all(&mut self, candidates: &[Candidate]) {
         let together = candidates.len() / (4 * rayon::current_num_threads());
         let lanes = Lanes {
             prepared: self.prepared,

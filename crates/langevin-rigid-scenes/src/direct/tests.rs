@@ -127,11 +127,11 @@ fn a_force_takes_the_body_where_chance_does_not() {
 
 #[test]
 fn falls_in_wind_and_of_another_speed_fall_again() {
-    let card = card(&format!(
-        "direct.land = {{ side = \"down\" }}\ndirect.falls = 64\ndirect.best = 4\n\
-         direct.free = {{ tilt = 90.0, velocity = 4.0 }}\n\
-         [[wind]]\nfield = \"gusts\"\nrms = 0.5\nlength = 1.0"
-    ));
+    let card = card(
+        "direct.land = { side = \"down\" }\ndirect.falls = 64\ndirect.best = 4\n\
+         direct.free = { tilt = 90.0, velocity = 4.0 }\n\
+         [[wind]]\nfield = \"gusts\"\nrms = 0.5\nlength = 1.0",
+    );
     let found = search(&card, &()).unwrap();
     assert_eq!(found.best.len(), 4);
     all_fall_again(&found, &card);
@@ -141,7 +141,9 @@ fn falls_in_wind_and_of_another_speed_fall_again() {
 fn built_in_bodies_move_as_they_are_known_to() {
     for (name, wanted) in [
         ("maple-seed", Motion::Spiral),
-        ("business-card", Motion::Tumble),
+        ("leaf", Motion::Flutter),
+        ("sheet-a6", Motion::Tumble),
+        ("paper-75", Motion::Chaotic),
     ] {
         let scene = scene::find(name).unwrap();
         let prepared = Prepared::new(scene, None, &()).unwrap();
