@@ -32,6 +32,7 @@ pub(crate) enum Command {
     Simulate(Simulate),
     Export(Export),
     Ensemble(Ensemble),
+    Direct(Direct),
     Regimes(Regimes),
     AddedMass(AddedMass),
     Check(Check),
@@ -189,6 +190,39 @@ pub(crate) struct Ensemble {
     #[arg(long, value_name = "NAME", help = models())]
     pub(crate) model: Option<Model>,
     /// Print the statistics as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Find releases, noise and forces whose fall does what the scene asks.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid direct direct-leaf
+  langevin-rigid direct my-scene.toml --falls 100000 --best 20 --json
+  langevin-rigid simulate out/direct-leaf-direct/best-1.toml
+
+What is asked and what is free stands under [direct] in the scene; docs/directing.md has it. The same
+scene gives the same falls on any machine.
+
+Writes into DIR: best.csv (one row per fall; seconds, metres, degrees, world frame), best.json, and of
+each fall best-N.toml, the scene that `simulate` runs to the same bits, and best-N.png.")]
+pub(crate) struct Direct {
+    /// A built-in scene (see `langevin-rigid scenes`) or a scene file.
+    pub(crate) scene: String,
+    /// Most falls to try [default: the scene's].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    pub(crate) falls: Option<u32>,
+    /// How many falls are wanted, different from each other [default: the scene's].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) best: Option<u32>,
+    /// Folder for the results [default: out/SCENE-direct].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Seed of the noise and of the draws.
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Print best.json as well.
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -8,6 +8,7 @@ mod bench;
 mod cache;
 mod check;
 mod crowd;
+mod direct;
 mod ensemble;
 mod export;
 mod forecast;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Command::Simulate(options) => simulate::simulate(options, &bars),
         Command::Export(options) => export::export(options, &bars),
         Command::Ensemble(options) => ensemble::ensemble(options, &bars),
+        Command::Direct(options) => direct::direct(options, &bars),
         Command::Regimes(options) => regimes::regimes(options, &bars),
         Command::AddedMass(options) => added_mass::added_mass(options, &bars),
         Command::Check(options) => match check::check(options, &bars) {

@@ -13,7 +13,7 @@ use langevin_rigid_pictures::{
 use langevin_rigid_scenes::prepared::Prepared;
 use rayon::prelude::*;
 
-use crate::arguments::{Shown, Simulate, Viewpoint};
+use crate::arguments::{Shown, Viewpoint};
 use crate::bars::Bars;
 use crate::say;
 
@@ -37,7 +37,12 @@ pub(crate) struct Written {
 }
 
 impl<'a> Shot<'a> {
-    pub(crate) fn new(options: &Simulate, prepared: &'a Prepared, poses: &'a [Pose]) -> Self {
+    pub(crate) fn new(
+        shown: Shown,
+        from: Option<Viewpoint>,
+        prepared: &'a Prepared,
+        poses: &'a [Pose],
+    ) -> Self {
         let scene = prepared.scene();
         let (model, seed) = (scene.settings.model, scene.seed);
         let usual = PictureOptions::default();
@@ -48,12 +53,10 @@ impl<'a> Shot<'a> {
             options: PictureOptions {
                 title: Some(format!("{} ({model}, seed {seed})", scene.name)),
                 ground: scene.stop.ground,
-                interval: scene
-                    .picture_interval
-                    .filter(|_| options.picture != Shown::Path),
-                view: options.view.map_or(usual.view, Viewpoint::view),
-                path: options.picture != Shown::Strobe,
-                max_instants: match options.picture {
+                interval: scene.picture_interval.filter(|_| shown != Shown::Path),
+                view: from.map_or(usual.view, Viewpoint::view),
+                path: shown != Shown::Strobe,
+                max_instants: match shown {
                     Shown::Path => 0,
                     Shown::Strobe | Shown::Both => usual.max_instants,
                 },

@@ -67,7 +67,6 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
         .iter()
         .map(|fall| Trajectory::new(fall.body, &fall.states))
         .collect();
-    let shot = Shot::new(options, &prepared, &trajectories[0].poses);
     let kinds = kinds(&prepared, &looks);
     let bodies = falls.iter().zip(&trajectories);
     let bodies: Vec<RecordedBody<'_>> = bodies
@@ -77,6 +76,8 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
             trajectory,
         })
         .collect();
+    let poses = &trajectories[0].poses;
+    let shot = Shot::new(options.picture, options.view, &prepared, poses);
     let run = Recording {
         conditions: scene.conditions(),
         kinds: &kinds,
@@ -280,11 +281,24 @@ fn write_all(
     Ok(written)
 }
 
-/// The scene as it was run; a mesh is named by its full path so that the file works anywhere.
+/// The scene as it was run; a mesh, a table of wind and a drawn path are named by their full paths so that the file works
+/// anywhere.
 pub(crate) fn resolved(scene: &Scene) -> Result<String> {
     let mut scene = scene.clone();
     if let scene::Geometry::Mesh { path, .. } = &mut scene.body.geometry {
         *path = std::path::absolute(&path)?;
+    }
+    for part in &mut scene.wind {
+        if let scene::SceneField::Table { path } = &mut part.field {
+            *path = std::path::absolute(&path)?;
+        }
+    }
+    if let Some(path) = scene
+        .direct
+        .as_mut()
+        .and_then(|direct| direct.path.as_mut())
+    {
+        path.file = std::path::absolute(&path.file)?;
     }
     Ok(scene.to_toml()?)
 }

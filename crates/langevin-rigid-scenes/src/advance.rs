@@ -8,8 +8,8 @@ use crate::scene::Scene;
 /// Advances `state` by the scene's time step.
 ///
 /// While it is [carried](crate::scene::Scene::carried) the body moves with its release velocity and does not turn. The wind
-/// is as it is where and when the step begins. The walls of a [tank](langevin_rigid::Tank), around the release, hold the
-/// centre of mass.
+/// and what [steers](crate::scene::Scene::steering) it are as they are where and when the step begins. The walls of a
+/// [tank](langevin_rigid::Tank), around the release, hold the centre of mass.
 ///
 /// # Errors
 /// Those of [`Stepper::step`](langevin_rigid::Stepper::step), with `state` as it was.
@@ -33,6 +33,9 @@ pub(crate) fn blown(prepared: &Prepared, release: &Release, state: &State, later
     let mut input = Input::with_noise(release.noise);
     if !wind.is_empty() {
         input.flow = wind.flow(state.position, state.time + later, stream);
+    }
+    if let Some(steering) = &prepared.scene().steering {
+        steering.push(state.time, &mut input.wrench);
     }
     input
 }

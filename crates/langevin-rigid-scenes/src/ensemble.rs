@@ -20,7 +20,9 @@ use rayon::prelude::*;
 use crate::prepared::Prepared;
 pub use fall::{Fall, FallEnding, SAMPLES_PER_SECOND};
 pub use lying::Lying;
+pub(crate) use motion_class::thin_axis;
 pub use motion_class::{MotionClass, MotionTracker};
+pub(crate) use scatter::product;
 pub use scatter::scattered_release;
 pub use side_by_side::side_by_side;
 pub use statistics::{Faces, Statistics, landings_csv};
@@ -52,10 +54,7 @@ pub use statistics::{Faces, Statistics, landings_csv};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run(prepared: &Prepared, runs: Range<u32>, progress: &dyn Progress) -> Vec<Fall> {
-    let setup = fall::Setup {
-        prepared,
-        thin_axis: motion_class::thin_axis(prepared.body()),
-    };
+    let thin_axis = thin_axis(prepared.body());
     let all = runs.len().max(1) as f64;
     let runs: Vec<u32> = runs.collect();
     let together = (runs.len() / (4 * rayon::current_num_threads())).clamp(1, TOGETHER);
@@ -63,17 +62,18 @@ pub fn run(prepared: &Prepared, runs: Range<u32>, progress: &dyn Progress) -> Ve
     let falls: Vec<Vec<Fall>> = runs
         .par_chunks(together)
         .map(|some| {
-            setup.falls(some, &|| progress.cancelled(), &|| {
+            let ended = || {
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.report("dropping", f64::from(done) / all);
-            })
+            };
+            fall::falls(prepared, thin_axis, some, &|| progress.cancelled(), &ended)
         })
         .collect();
     falls.into_iter().flatten().collect()
 }
 
 /// Runs that fall together at most: some packs of a batch, few enough that none waits long for the last of the others.
-const TOGETHER: usize = 64;
+pub(crate) const TOGETHER: usize = 64;
 
 #[cfg(test)]
 mod tests;

@@ -52,6 +52,7 @@
 //! - [`look`](mod@look): how bodies look in exports.
 //! - [`together`]: bodies that touch, float, and are many.
 //! - [`ensemble`]: many falls, what kind of motion each is, and their statistics.
+//! - [`direct`]: releases whose fall does what is asked.
 //! - [`regimes`]: how discs and strips fall over Reynolds number and inertia, against experiments.
 //!
 //! # Conventions
@@ -74,7 +75,9 @@
 
 pub mod advance;
 pub mod baking;
+pub mod direct;
 pub mod ensemble;
+mod lanes;
 pub mod look;
 pub mod prepared;
 pub mod regimes;

@@ -276,13 +276,14 @@ impl Prepared {
         Ok(())
     }
 
-    /// The release of body `number` among many that fall side by side; body 0 has the scene's own.
+    /// The release of body `number` among many that fall side by side; body 0 has the scene's own, with the stream of noise
+    /// that the scene names.
     pub fn release(&self, number: u32) -> Release {
         Release {
             state: side_by_side(&self.scene, self.body(), number),
             noise: NoiseStream {
                 seed: self.scene.seed,
-                body: number,
+                body: self.scene.stream.wrapping_add(number),
             },
         }
     }

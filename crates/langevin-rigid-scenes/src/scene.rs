@@ -6,6 +6,7 @@
 
 mod body;
 mod crowd;
+mod direct;
 mod grid;
 mod materials;
 mod place;
@@ -17,6 +18,7 @@ mod run;
 mod seed;
 mod separated;
 mod shape;
+mod steering;
 mod surroundings;
 #[cfg(test)]
 mod tests;
@@ -34,6 +36,7 @@ use langevin_rigid_bake::turbulence::Sampling;
 use serde_spanned::Spanned;
 
 pub use crowd::{Crowd, CrowdKind};
+pub use direct::{Direct, Freedom, Landing, Path, Ring, Side};
 use langevin_rigid_formats::export::Conditions;
 use langevin_rigid_formats::mesh::LengthUnit;
 use place::Document;
@@ -43,6 +46,7 @@ use raw::{RawFluid, RawPicture, RawRun, RawScatter, RawScene, RawTank, given};
 pub use registry::{BUILT_IN, BuiltIn, FindError, find};
 pub use run::StepsError;
 use seed::Seed;
+pub use steering::Steering;
 pub use wind::{SceneField, SceneWindError, WindPart};
 pub use world::{Contact, ContactShape, ObstacleGeometry, SceneObstacle, SceneWater, SceneWaves};
 
@@ -88,6 +92,12 @@ pub struct Scene {
     pub water: Option<SceneWater>,
     /// Many bodies in place of one.
     pub crowd: Option<Crowd>,
+    /// Which of the seed's streams of noise a single run has.
+    pub stream: u32,
+    /// The force that steers the body, if any.
+    pub steering: Option<Steering>,
+    /// What its fall shall do, for [`crate::direct`].
+    pub direct: Option<Direct>,
 }
 
 /// Standard deviations of the normal scatter of an ensemble's releases, one draw per run.
@@ -206,6 +216,11 @@ impl Scene {
             return Err(doc.error(raw.run.span(), message));
         }
         let parts = wind::resolve(&doc, &raw.wind, stop.ground, fluid.velocity)?;
+        let surroundings = direct::Surroundings {
+            ground: stop.ground.is_some(),
+            tank: tank.is_some(),
+            steered: raw.steering.is_some(),
+        };
         Ok(Self {
             name: name.to_owned(),
             description: raw.description.clone().unwrap_or_default(),
@@ -231,6 +246,9 @@ impl Scene {
             obstacles: world::obstacles(&doc, &raw.obstacle, material)?,
             water: water.transpose()?,
             crowd: crowd.transpose()?,
+            stream: run::stream(&doc, run)?,
+            steering: steering::resolve(&doc, raw.steering.as_ref())?,
+            direct: direct::resolve(&doc, raw.direct.as_ref(), &surroundings)?,
         })
     }
 
@@ -310,6 +328,10 @@ impl Scene {
                     ground: self.stop.ground.and_then(given),
                     seed: given(Seed(self.seed)),
                     gravity: given(self.settings.gravity.to_vec()),
+                    reynolds: self.settings.reynolds.and_then(given),
+                    stream: (self.stream != 0)
+                        .then(|| i64::from(self.stream))
+                        .and_then(given),
                 },
             ),
             turbulence: grid::write(&self.grid, self.settings.turbulence_length),
@@ -325,6 +347,8 @@ impl Scene {
             tank: self.tank.map(|tank| RawTank {
                 size: Spanned::new(0..0, tank.size.to_vec()),
             }),
+            steering: self.steering.as_ref().map(steering::write),
+            direct: self.direct.as_ref().map(direct::write).transpose()?,
             wind: self
                 .wind
                 .iter()

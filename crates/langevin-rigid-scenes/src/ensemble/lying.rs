@@ -1,12 +1,13 @@
 //! The fall of a body that meets what stands in its way, until it lies still.
 
-use langevin_rigid::linalg::rotate;
+use langevin_rigid::linalg::{Vec3, rotate};
 use langevin_rigid::{NoiseStream, State};
 use serde::{Deserialize, Serialize};
 
-use super::fall::{APART, Fall, FallEnding, Falling, Setup};
+use super::fall::{APART, Fall, FallEnding, Watched, relative};
 use super::scatter::scattered_release;
-use crate::prepared::Release;
+use crate::lanes::Watch;
+use crate::prepared::{Prepared, Release};
 use crate::scene::MAX_STEPS;
 use crate::together::Surroundings;
 
@@ -24,75 +25,78 @@ pub struct Lying {
     pub up: f64,
 }
 
-impl Setup<'_> {
-    /// A run in the world of the scene.
-    pub(super) fn fall_in_world(&self, surroundings: &Surroundings, run: u32) -> Fall {
-        let scene = self.prepared.scene();
-        let release = Release {
-            state: scattered_release(scene, run),
-            noise: NoiseStream {
-                seed: scene.seed,
-                body: run,
-            },
-        };
-        let mut fall = Falling::new(self, release);
-        let mut state = release.state;
-        while state.time < scene.carried - 0.5 * scene.time_step {
-            let before = state;
-            state.carry(scene.time_step);
-            self.follow(&mut fall, &before, &state);
+/// A run in the world of the scene.
+pub(super) fn fall_in_world(
+    prepared: &Prepared,
+    surroundings: &Surroundings,
+    thin_axis: Vec3,
+    run: u32,
+) -> Fall {
+    let scene = prepared.scene();
+    let release = Release {
+        state: scattered_release(scene, run),
+        noise: NoiseStream {
+            seed: scene.seed,
+            body: run,
+        },
+    };
+    let mut watch = Watched::new(scene, thin_axis, &release.state);
+    let mut state = release.state;
+    while state.time < scene.carried - 0.5 * scene.time_step {
+        let before = state;
+        state.carry(scene.time_step);
+        watch.see(&before, &state);
+    }
+    let kind = surroundings.own_kind();
+    let slack = TOUCH * kind.shape().radius();
+    let mut world = surroundings.world().clone();
+    let apart = APART * f64::from(run);
+    world.set_time(apart + state.time);
+    let body = world.add(kind, state, release.noise);
+    // By its own clock.
+    let own = |world: &langevin_rigid_world::World| State {
+        time: world.state(body).time - apart,
+        ..*world.state(body)
+    };
+    let mut landed = None;
+    let ending = loop {
+        let before = own(&world);
+        let late = |end: f64| before.time > end - 0.5 * scene.time_step;
+        if scene.stop.time.is_some_and(late) || before.step >= MAX_STEPS {
+            break FallEnding::Time;
         }
-        let kind = match surroundings.kind(0, 1.0) {
-            Ok(kind) => kind,
-            Err(error) => {
-                let ending = FallEnding::Diverged(error.to_string());
-                return self.ended(fall, &state, ending);
-            }
-        };
-        let slack = TOUCH * kind.shape().radius();
-        let mut world = surroundings.world().clone();
-        let apart = APART * f64::from(run);
-        world.set_time(apart + state.time);
-        let body = world.add(kind, state, release.noise);
-        // By its own clock.
-        let own = |world: &langevin_rigid_world::World| State {
-            time: world.state(body).time - apart,
-            ..*world.state(body)
-        };
-        let mut landed = None;
-        let ending = loop {
-            let before = own(&world);
-            let late = |end: f64| before.time > end - 0.5 * scene.time_step;
-            if scene.stop.time.is_some_and(late) || before.step >= MAX_STEPS {
-                break FallEnding::Time;
-            }
-            if world.is_still(body) {
-                break FallEnding::Ground;
-            }
-            if let Err(error) = world.step(scene.time_step) {
-                break FallEnding::Diverged(error.error.to_string());
-            }
-            let state = own(&world);
-            if landed.is_none() {
-                self.follow(&mut fall, &before, &state);
-                let touches = |y: f64| self.prepared.hull().touches(&state, y + slack);
-                landed = scene.stop.ground.is_some_and(touches).then_some(state);
-            }
-        };
-        let last = own(&world);
-        let lying = matches!(ending, FallEnding::Ground).then(|| Lying {
-            time: last.time,
-            place: self.relative_to_release(last.position),
-            up: rotate(last.orientation, self.thin_axis)[1],
-        });
-        let ending = match (&landed, ending) {
-            (_, FallEnding::Diverged(words)) => FallEnding::Diverged(words),
-            (Some(_), _) => FallEnding::Ground,
-            (None, _) => FallEnding::Time,
-        };
-        Fall {
-            lying,
-            ..self.ended(fall, &landed.unwrap_or(last), ending)
+        if world.is_still(body) {
+            break FallEnding::Ground;
         }
+        if let Err(error) = world.step(scene.time_step) {
+            break FallEnding::Diverged(error.error.to_string());
+        }
+        let state = own(&world);
+        if landed.is_none() {
+            watch.see(&before, &state);
+            let touches = |y: f64| prepared.hull().touches(&state, y + slack);
+            landed = scene.stop.ground.is_some_and(touches).then_some(state);
+        }
+    };
+    let last = own(&world);
+    let lying = matches!(ending, FallEnding::Ground).then(|| Lying {
+        time: last.time,
+        place: relative(last.position, scene.release.position),
+        up: rotate(last.orientation, thin_axis)[1],
+    });
+    let ending = match (&landed, ending) {
+        (_, FallEnding::Diverged(words)) => FallEnding::Diverged(words),
+        (Some(_), _) => FallEnding::Ground,
+        (None, _) => FallEnding::Time,
+    };
+    let end = landed.unwrap_or(last);
+    Fall {
+        run,
+        ending,
+        time: end.time,
+        end: relative(end.position, scene.release.position),
+        samples: watch.samples,
+        motion: watch.motion,
+        lying,
     }
 }

@@ -47,7 +47,7 @@ impl MotionClass {
 }
 
 /// The body's thin axis, body frame: that of its largest moment of inertia.
-pub(super) fn thin_axis(body: &Body) -> Vec3 {
+pub(crate) fn thin_axis(body: &Body) -> Vec3 {
     let (_, axes) = eigen_symmetric(&body.inertia);
     std::array::from_fn(|i| axes[i][2])
 }
@@ -110,7 +110,11 @@ impl MotionTracker {
 
     /// Takes the next state of the fall.
     pub fn follow(&mut self, state: &State) {
-        let axis = rotate(state.orientation, self.axis);
+        self.follow_axis(rotate(state.orientation, self.axis));
+    }
+
+    /// The same from the thin axis, world frame.
+    pub(crate) fn follow_axis(&mut self, axis: Vec3) {
         let upright = axis[1] * self.side;
         if upright < -TURNED {
             self.turn_over(axis);

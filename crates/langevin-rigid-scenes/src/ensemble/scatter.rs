@@ -43,7 +43,7 @@ fn scattered(mean: Vec3, deviation: f64, normals: Vec3) -> Vec3 {
 }
 
 /// The turn `b`, then `a`.
-fn product(a: Quat, b: Quat) -> Quat {
+pub(crate) fn product(a: Quat, b: Quat) -> Quat {
     [
         a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
         a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],

@@ -1,6 +1,6 @@
 //! Where in a scene file something is wrong.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use langevin_rigid::choose;
 use serde_spanned::Spanned;
@@ -88,6 +88,21 @@ impl Document<'_> {
             .as_ref()
             .map(|v| self.number(v, key, kind))
             .transpose()
+    }
+
+    /// A whole number in a range.
+    pub(super) fn count(
+        &self,
+        value: &Spanned<i64>,
+        key: &str,
+        range: RangeInclusive<u32>,
+    ) -> Result<u32, SceneError> {
+        let count = u32::try_from(*value.get_ref()).ok();
+        count.filter(|n| range.contains(n)).ok_or_else(|| {
+            let (least, most) = (range.start(), range.end());
+            let message = format!("`{key}` must be a whole number between {least} and {most}");
+            self.error(value.span(), message)
+        })
     }
 
     /// So many values, no more and no fewer.

@@ -92,3 +92,11 @@ pub(super) const DEVIATION: Kind = Kind::new("m/s", 0.0, 1e6);
 /// Of a power law over the height.
 pub(super) const EXPONENT: Kind = Kind::new("", 0.01, 1.0);
 pub(super) const CIRCULATION: Kind = Kind::either_way("m^2/s", 1e9);
+/// Of a control point of a force.
+pub(super) const FORCE: Kind = Kind::either_way("N", 1e12);
+/// A share of the weight.
+pub(super) const SHARE: Kind = Kind::new("share of the weight", 1e-9, 100.0);
+/// How far from the release what is free may be.
+pub(super) const FREE_ANGLE: Kind = Kind::new("degrees", 0.0, 180.0);
+pub(super) const FREE_SPIN: Kind = Kind::new("rad/s", 0.0, 1e6);
+pub(super) const REYNOLDS: Kind = Kind::new("", 0.0, 1e30);

@@ -36,6 +36,8 @@ pub(super) struct RawScene {
     pub(super) contact: Option<RawContact>,
     pub(super) water: Option<Spanned<RawWater>>,
     pub(super) crowd: Option<Spanned<RawCrowd>>,
+    pub(super) steering: Option<Spanned<RawSteering>>,
+    pub(super) direct: Option<Spanned<RawDirect>>,
     // Lists of tables last, as TOML has them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) wind: Vec<Spanned<RawWind>>,
@@ -187,6 +189,8 @@ pub(super) struct RawRun {
     pub(super) ground: Given<f64>,
     pub(super) seed: Given<Seed>,
     pub(super) gravity: Given<Vec<f64>>,
+    pub(super) reynolds: Given<f64>,
+    pub(super) stream: Given<i64>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -268,4 +272,60 @@ pub(super) struct RawSeparated {
     pub(super) turbulence_intensity: Given<f64>,
     pub(super) turbulence_memory: Given<f64>,
     pub(super) attached: Option<bool>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSteering {
+    pub(super) every: Given<f64>,
+    pub(super) force: Given<Vec<Spanned<Vec<f64>>>>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawDirect {
+    pub(super) best: Given<i64>,
+    pub(super) falls: Given<i64>,
+    pub(super) motion: Given<Vec<Spanned<String>>>,
+    pub(super) steer: Given<f64>,
+    pub(super) free: Option<Spanned<RawFree>>,
+    pub(super) land: Option<Spanned<RawLand>>,
+    pub(super) path: Option<Spanned<RawPath>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) ring: Vec<Spanned<RawRing>>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawFree {
+    pub(super) tilt: Given<f64>,
+    pub(super) heading: Given<f64>,
+    pub(super) position: Given<Vec<f64>>,
+    pub(super) velocity: Given<f64>,
+    pub(super) spin: Given<f64>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawLand {
+    pub(super) at: Given<Vec<f64>>,
+    pub(super) within: Given<f64>,
+    pub(super) time: Given<f64>,
+    pub(super) time_within: Given<f64>,
+    pub(super) side: Given<String>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawPath {
+    pub(super) file: Given<String>,
+    pub(super) within: Given<f64>,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRing {
+    pub(super) centre: Given<Vec<f64>>,
+    pub(super) normal: Given<Vec<f64>>,
+    pub(super) radius: Given<f64>,
 }

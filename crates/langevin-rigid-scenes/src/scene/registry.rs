@@ -44,6 +44,7 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
     "pond",
     "coin-toss",
     "ball-up",
+    "direct-leaf",
     "sheet-a6",
     "table2-ellipsoid-320-1ms",
     "table2-ellipsoid-320-5ms",
@@ -145,6 +146,13 @@ pub fn find(name: &str) -> Result<Scene, FindError> {
             if let SceneField::Table { path } = &mut part.field {
                 *path = folder.join(&path);
             }
+        }
+        if let Some(path) = scene
+            .direct
+            .as_mut()
+            .and_then(|direct| direct.path.as_mut())
+        {
+            path.file = folder.join(&path.file);
         }
     }
     Ok(scene)

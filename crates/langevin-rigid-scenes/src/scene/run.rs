@@ -4,7 +4,7 @@ use langevin_rigid::{Integrator, Model, Settings, StopAt, TurbulenceSource};
 use serde_spanned::Spanned;
 
 use super::place::{Document, SceneError};
-use super::quantity::{DURATION, GAIN, GRAVITY, PLACE, SIZE, TIME_STEP};
+use super::quantity::{DURATION, GAIN, GRAVITY, PLACE, REYNOLDS, SIZE, TIME_STEP};
 use super::raw::{RawRun, RawTurbulence};
 use super::{MAX_STEPS, Scene};
 
@@ -113,8 +113,16 @@ pub(super) fn settings(
         turbulence: source(doc, run)?,
         gravity: run.gravity.as_ref().map_or(Ok(defaults.gravity), gravity)?,
         turbulence_length: doc.given(&turbulence.length, "length", SIZE)?,
+        reynolds: doc.given(&run.reynolds, "reynolds", REYNOLDS)?,
         ..defaults
     })
+}
+
+/// Which stream of noise a single run has.
+pub(super) fn stream(doc: &Document, run: &RawRun) -> Result<u32, SceneError> {
+    run.stream
+        .as_ref()
+        .map_or(Ok(0), |given| doc.count(given, "stream", 0..=u32::MAX))
 }
 
 fn integrator(doc: &Document, run: &RawRun, model: Model) -> Result<Integrator, SceneError> {

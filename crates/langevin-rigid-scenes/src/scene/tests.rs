@@ -55,6 +55,7 @@ const KEYS: &[(&str, &[(&str, &str)])] = &[
             ("model", "\"separated\""),
             ("integrator", "\"strang\""),
             ("turbulence", "\"wake-age=3\""),
+            ("reynolds", "1000.0"),
         ],
     ),
     (
@@ -87,6 +88,27 @@ const KEYS: &[(&str, &[(&str, &str)])] = &[
         &[("tilt", "1.0"), ("spin", "2.0"), ("velocity", "0.1")],
     ),
     ("tank", &[("size", "[1.0, 2.0, 3.0]")]),
+    ("direct", &[("steer", "0.1")]),
+    (
+        "direct.land",
+        &[
+            ("at", "[0.1, 0.0, 0.2]"),
+            ("within", "0.1"),
+            ("time", "0.5"),
+            ("time_within", "0.1"),
+            ("side", "\"up\""),
+        ],
+    ),
+    (
+        "direct.free",
+        &[
+            ("tilt", "10.0"),
+            ("heading", "180.0"),
+            ("position", "[0.0, 0.0, 0.0]"),
+            ("velocity", "0.3"),
+            ("spin", "2.0"),
+        ],
+    ),
 ];
 
 /// The scene with some values replaced, left out where they are empty; the line of the last one.
@@ -151,7 +173,7 @@ fn every_array_has_exactly_its_length() {
         }
         seen += 1;
     }
-    assert_eq!(seen, 11);
+    assert_eq!(seen, 13);
     let row = "[[2e-6, 0.0, 0.0, 9.0], [0.0, 2e-6, 0.0], [0.0, 0.0, 1e-6]]";
     assert!(refused("body", "inertia", row).contains("takes 3 values, and has 4"));
     let (text, _) = written(&[

@@ -147,8 +147,13 @@ impl Surroundings {
         &self.kinds
     }
 
+    /// The scene's own kind of bodies.
+    pub(crate) fn own_kind(&self) -> Arc<Kind> {
+        Arc::clone(&self.kinds[0].kind)
+    }
+
     /// A kind of bodies at so many times its size.
-    pub(crate) fn kind(&self, number: usize, scale: f64) -> Result<Arc<Kind>, SurroundingsError> {
+    pub(super) fn kind(&self, number: usize, scale: f64) -> Result<Arc<Kind>, SurroundingsError> {
         let CrowdBody {
             scene,
             baked,

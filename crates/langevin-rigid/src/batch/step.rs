@@ -23,6 +23,7 @@ impl Stepper {
     }
 
     /// The same under `inputs`, which gives a body's input from its number and its state; the noise is that of the batch.
+    /// It is asked once for each body, in the order of their places.
     ///
     /// ```
     /// use langevin_rigid::{Batch, Body, Flow, Fluid, Input, Settings, State, Stepper};
