@@ -11,7 +11,7 @@ use langevin_rigid_formats::budget::Need;
 use langevin_rigid_formats::files::{self, Claim};
 use langevin_rigid_scenes::baking::Baked;
 use langevin_rigid_scenes::ensemble::{
-    self, Fall, FallEnding, SAMPLES_PER_SECOND, Statistics, landings_csv,
+    self, Faces, Fall, FallEnding, SAMPLES_PER_SECOND, Statistics, landings_csv,
 };
 use langevin_rigid_scenes::scene::{self, Scene};
 use serde::Serialize;
@@ -179,6 +179,12 @@ fn tell(options: &Ensemble, folder: &Path, report: &Report) -> Result<()> {
         writeln!(
             out,
             "  landing sigma {x:.4} m along x and {z:.4} m along z, median distance {distance:.4} m"
+        )?;
+    }
+    if let Some(Faces { up, down, edge }) = statistics.faces {
+        writeln!(
+            out,
+            "  at rest {up} face up, {down} face down, {edge} steep"
         )?;
     }
     writeln!(

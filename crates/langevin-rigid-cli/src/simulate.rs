@@ -176,7 +176,7 @@ fn forecast(options: &Simulate, scene: &Scene, baked: &Baked) -> Result<()> {
     }
     let animated = options.format.iter().any(|format| format.is_animation());
     let fps = animated.then_some(options.fps);
-    let need = forecast::kept(options.bodies, seconds, scene.time_step, fps);
+    let need = forecast::kept(asked(options.bodies, scene), seconds, scene.time_step, fps);
     let what = format!(
         "`--bodies {} --fps {:?}` for {seconds:.3} s in steps of {:?} s (`--duration`, `--dt`)",
         options.bodies, options.fps, scene.time_step
