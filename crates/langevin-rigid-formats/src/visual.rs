@@ -75,7 +75,7 @@ pub(crate) struct Part {
 pub enum VisualError {
     /// The file cannot be read.
     #[error(
-        "the visual `{}` cannot be read ({source}): check the path, which is relative to the current folder \
+        "the visual `{}` cannot be read ({error}): check the path, which is relative to the current folder \
          unless it begins with /",
         path.display()
     )]
@@ -83,7 +83,7 @@ pub enum VisualError {
         /// Its path.
         path: PathBuf,
         /// The system's reason.
-        source: io::Error,
+        error: io::Error,
     },
     /// The file is of another format.
     #[error(
@@ -113,7 +113,7 @@ impl Visual {
     pub fn read(path: &Path) -> Result<Self, VisualError> {
         let bytes = std::fs::read(path).map_err(|source| VisualError::Unreadable {
             path: path.into(),
-            source,
+            error,
         })?;
         if !matches!(
             MeshFormat::of_content(&bytes),

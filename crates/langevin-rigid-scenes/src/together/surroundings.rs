@@ -65,8 +65,11 @@ pub enum SurroundingsError {
     #[error(transparent)]
     Read(#[from] ReadError),
     /// The water is none.
-    #[error("[water]: {0}")]
-    Water(#[from] WaterError),
+    #[error("[water]: {error}")]
+    Water {
+        /// What is wrong with it.
+        error: WaterError,
+    },
     /// A body cannot float.
     #[error("the body of `{scene}` in [water]: {error}")]
     Immersion {
@@ -84,8 +87,11 @@ pub enum SurroundingsError {
         error: ShapeError,
     },
     /// A scene of the crowd cannot be found.
-    #[error("`kinds` of the [crowd]: {0}")]
-    Find(#[from] FindError),
+    #[error("`kinds` of the [crowd]: {error}")]
+    Find {
+        /// Why not.
+        error: FindError,
+    },
     /// A body of the crowd could not be baked.
     #[error(transparent)]
     Bake(#[from] SceneBakeError),
@@ -122,7 +128,9 @@ impl Surroundings {
         let wind = scene.make_wind()?;
         surroundings.world.set_wind(wind, scene.fluid.velocity);
         if let Some(water) = &scene.water {
-            surroundings.world.set_water(surface(water, scene)?);
+            let surface = surface(water, scene);
+            let surface = surface.map_err(|error| SurroundingsError::Water { error })?;
+            surroundings.world.set_water(surface);
         }
         surroundings.enclose()?;
         for (number, obstacle) in scene.obstacles.iter().enumerate() {
@@ -130,7 +138,7 @@ impl Surroundings {
         }
         surroundings.add_kind(scene.clone(), Arc::clone(baked))?;
         for kind in scene.crowd.iter().flat_map(|crowd| &crowd.kinds) {
-            let other = find(&kind.scene)?;
+            let other = find(&kind.scene).map_err(|error| SurroundingsError::Find { error })?;
             let baked = bake_scene(&other, cache, progress)?;
             surroundings.add_kind(other, Arc::new(baked))?;
         }
