@@ -111,7 +111,7 @@ impl Visual {
     /// [`VisualError`], also for whatever is damaged: numbers of objects that are not there, nodes that are no tree,
     /// data cut short, images that are missing or of no known format.
     pub fn read(path: &Path) -> Result<Self, VisualError> {
-        let bytes = std::fs::read(path).map_err(|source| VisualError::Unreadable {
+        let bytes = std::fs::read(path).map_err(|error| VisualError::Unreadable {
             path: path.into(),
             error,
         })?;
