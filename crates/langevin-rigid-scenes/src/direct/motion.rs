@@ -63,6 +63,8 @@ const ROUND: f64 = 0.2;
 const PIECES: usize = 24;
 /// Fewest of them that make a motion.
 const FEWEST: usize = 4;
+/// Share of a fall that may be of none of the motions that are asked.
+const OF_NONE: f64 = 0.2;
 
 /// The motion of a body over a stretch of its fall; `size` is its largest half extent (m).
 pub(super) fn motion(stretch: &[Glimpse], size: f64) -> Motion {
@@ -158,34 +160,33 @@ fn goes_round(stretch: &[Glimpse], size: f64) -> bool {
     turns >= 1.0 && radius >= size
 }
 
-/// Share of the time of a fall that has another motion than `wanted`, which follow each other, cut where it is least.
-pub(super) fn wrong_share(wanted: &[Motion], seen: &[Glimpse], size: f64) -> f64 {
-    let right = |from: usize, to: usize, wanted: Motion| {
-        let place = |piece: usize| piece * seen.len() / PIECES;
-        has(&seen[place(from)..place(to)], size, wanted)
-    };
-    // Most pieces that are right, up to each end of a piece.
-    let mut most = [None; PIECES + 1];
-    most[0] = Some(0);
-    let fewest = if wanted.len() == 1 { PIECES } else { FEWEST };
-    for (number, &wanted_now) in wanted.iter().enumerate() {
-        let left = wanted.len() - number - 1;
-        let mut next = [None; PIECES + 1];
-        let ends = fewest..=PIECES - left * FEWEST;
-        for end in ends.filter(|end| left > 0 || *end == PIECES) {
-            for from in 0..=end - fewest {
-                let Some(before) = most[from] else { continue };
-                let gain = if right(from, end, wanted_now) {
-                    end - from
-                } else {
-                    0
-                };
-                next[end] = next[end].max(Some(before + gain));
+/// How far a fall is from having the motions `wanted`, one after the other, in units of the tolerance: by the share of its
+/// time that is of none of them, cut where that is least. Where one is not there at all it is farther than the tolerance.
+pub(super) fn miss(wanted: &[Motion], seen: &[Glimpse], size: f64) -> f64 {
+    let place = |piece: usize| piece * seen.len() / PIECES;
+    let right = |from, to, wanted| has(&seen[place(from)..place(to)], size, wanted);
+    // Up to each piece: how many of the motions so far are there, and on how many pieces.
+    let mut most = [(0usize, 0usize); PIECES + 1];
+    for &wanted in wanted {
+        let mut next = most;
+        for end in FEWEST..=PIECES {
+            for from in 0..=end - FEWEST {
+                let (there, pieces) = most[from];
+                let with = (there + 1, pieces + end - from);
+                if with > next[end] && right(from, end, wanted) {
+                    next[end] = with;
+                }
             }
+            next[end] = next[end].max(next[end - 1]);
         }
         most = next;
     }
-    1.0 - most[PIECES].unwrap_or(0) as f64 / PIECES as f64
+    let (there, pieces) = most[PIECES];
+    let of_none = (1.0 - pieces as f64 / PIECES as f64) / OF_NONE;
+    match wanted.len() - there {
+        0 => of_none,
+        missing => 1.0 + of_none + missing as f64,
+    }
 }
 
 #[cfg(test)]
@@ -245,11 +246,12 @@ mod tests {
             true => ([0.0, 0.0], 0.0, 0.0),
             false => ([0.2 * swing(t), 0.0], swing(t), 0.0),
         });
-        let wrong = |wanted: &[Motion]| wrong_share(wanted, &seen, SIZE);
-        assert_eq!(wrong(&[Motion::Steady, Motion::Flutter]), 0.0);
-        assert_eq!(wrong(&[Motion::Flutter]), 1.0);
-        assert_eq!(wrong(&[Motion::Tumble]), 1.0);
-        assert!(wrong(&[Motion::Tumble, Motion::Flutter]) > 0.1);
-        assert!(wrong(&[Motion::Flutter, Motion::Steady]) > 0.1);
+        let miss = |wanted: &[Motion]| miss(wanted, &seen, SIZE);
+        assert!(miss(&[Motion::Steady, Motion::Flutter]) < 0.3);
+        // A third of the time or more is of no flutter.
+        assert!((1.1..3.0).contains(&miss(&[Motion::Flutter])));
+        assert!(miss(&[Motion::Tumble]) > 6.0);
+        assert!(miss(&[Motion::Tumble, Motion::Flutter]) > 2.0);
+        assert!(miss(&[Motion::Flutter, Motion::Steady]) > 1.0);
     }
 }
