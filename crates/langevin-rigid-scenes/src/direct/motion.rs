@@ -59,6 +59,8 @@ impl Motion {
 const ONE_SENSE: f64 = 0.8;
 /// How narrow an ellipse of velocities counts as a circle: its smaller mean square by the larger.
 const ROUND: f64 = 0.2;
+/// Mean times between two swings or turnovers that may go by before the first and after the last.
+const IDLE: f64 = 2.0;
 /// Pieces that a fall is cut into, at the ends of which a motion may give way to the next.
 const PIECES: usize = 24;
 /// Fewest of them that make a motion.
@@ -68,7 +70,7 @@ const OF_NONE: f64 = 0.2;
 
 /// The motion of a body over a stretch of its fall; `size` is its largest half extent (m).
 pub(super) fn motion(stretch: &[Glimpse], size: f64) -> Motion {
-    let tracker = tracked(stretch);
+    let tracker = tracked(stretch, |_| ());
     if tracker.turnovers() == 0 && goes_round(stretch, size) {
         return Motion::Helix;
     }
@@ -85,25 +87,41 @@ pub(super) fn motion(stretch: &[Glimpse], size: f64) -> Motion {
     }
 }
 
-/// How the thin axis swings and turns over.
-fn tracked(stretch: &[Glimpse]) -> MotionTracker {
+/// How the thin axis swings and turns over; `event` hears of the glimpses at which it does.
+fn tracked(stretch: &[Glimpse], mut event: impl FnMut(usize)) -> MotionTracker {
+    let first = stretch.first().map_or([0.0, 1.0, 0.0], |first| first.axis);
     // The glimpses have the axis in the world already.
-    let mut axes = stretch.iter().map(|glimpse| glimpse.axis);
-    let first = axes.next().unwrap_or([0.0, 1.0, 0.0]);
     let mut tracker = MotionTracker::new(first, &State::default());
-    axes.for_each(|axis| tracker.follow_axis(axis));
+    let mut events = 0;
+    for (place, glimpse) in stretch.iter().enumerate() {
+        tracker.follow_axis(glimpse.axis);
+        let now = tracker.swings() + tracker.turnovers();
+        if now > events {
+            event(place);
+        }
+        events = now;
+    }
     tracker
 }
 
-/// Whether a stretch has a motion from its beginning to its end: what swings or turns over does so in both halves.
+/// Whether a stretch has a motion from its beginning to its end: what swings or turns over does so all the time.
 fn has(stretch: &[Glimpse], size: f64, wanted: Motion) -> bool {
-    let (first, second) = stretch.split_at(stretch.len() / 2);
-    let lively = |half| {
-        let tracker = tracked(half);
-        tracker.swings() + tracker.turnovers() > 0
+    if motion(stretch, size) != wanted {
+        return false;
+    }
+    if matches!(wanted, Motion::Steady | Motion::Helix | Motion::Spiral) {
+        return true;
+    }
+    let mut events = Vec::new();
+    tracked(stretch, |place| events.push(place));
+    let (Some(&first), Some(&last)) = (events.first(), events.last()) else {
+        return false;
     };
-    let still = matches!(wanted, Motion::Steady | Motion::Helix | Motion::Spiral);
-    motion(stretch, size) == wanted && (still || lively(first) && lively(second))
+    let patience = match events.len() {
+        1 => 0.5 * stretch.len() as f64,
+        more => IDLE * (last - first) as f64 / (more - 1) as f64,
+    };
+    first as f64 <= patience && (stretch.len() - last) as f64 <= patience
 }
 
 /// Turns in one sense; none if they are in both.

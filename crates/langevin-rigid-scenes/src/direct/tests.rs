@@ -162,6 +162,18 @@ fn built_in_bodies_move_as_they_are_known_to() {
     }
 }
 
+#[test]
+fn a_thin_disc_in_water_is_found_on_a_helix() {
+    let text = "fluid.preset = \"water\"\n\
+                body = { shape = \"disc\", diameter = 0.03, thickness = 0.0005, triangles = 320, density = 1200.0 }\n\
+                release = { position = [0.0, 1.0, 0.0], tilt = 10.0 }\n\
+                run = { time_step = 0.005, duration = 60.0, ground = 0.0 }\n\
+                direct = { motion = [\"helix\"], best = 1, falls = 64, free.tilt = 90.0 }";
+    let scene = Scene::parse("disc", "disc.toml", text).unwrap();
+    let disc = Prepared::new(scene, None, &()).unwrap();
+    assert!(search(&disc, &()).unwrap().best[0].is_hit());
+}
+
 /// Asks to stop after so many reports.
 struct Impatient(AtomicU32);
 
