@@ -5,14 +5,11 @@ use langevin_rigid::linalg::vector::{add, dot, norm, scale, sub};
 
 use super::DirectError;
 use super::glimpses::{Glimpse, Glimpses};
-use super::motion::{Motion, wrong_share};
+use super::motion::{self, Motion};
 use super::path::DrawnPath;
 use crate::ensemble::FallEnding;
 use crate::prepared::Prepared;
 use crate::scene::{Direct, Landing, Ring, Side};
-
-/// Share of a fall that may have another motion than is asked.
-const OTHER_MOTION: f64 = 0.2;
 
 /// What is asked of a fall, made ready.
 pub(super) struct Asks {
@@ -78,7 +75,7 @@ impl Asks {
         }
         misses.extend(self.rings.iter().map(|ring| through(ring, seen)));
         if !self.motion.is_empty() {
-            misses.push(wrong_share(&self.motion, seen, self.size) / OTHER_MOTION);
+            misses.push(motion::miss(&self.motion, seen, self.size));
         }
         misses.extend(self.path.as_ref().map(|path| path.miss(seen)));
         misses

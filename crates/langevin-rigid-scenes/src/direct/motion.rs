@@ -59,14 +59,18 @@ impl Motion {
 const ONE_SENSE: f64 = 0.8;
 /// How narrow an ellipse of velocities counts as a circle: its smaller mean square by the larger.
 const ROUND: f64 = 0.2;
+/// Mean times between two swings or turnovers that may go by before the first and after the last.
+const IDLE: f64 = 2.0;
 /// Pieces that a fall is cut into, at the ends of which a motion may give way to the next.
 const PIECES: usize = 24;
 /// Fewest of them that make a motion.
 const FEWEST: usize = 4;
+/// Share of a fall that may be of none of the motions that are asked.
+const OF_NONE: f64 = 0.2;
 
 /// The motion of a body over a stretch of its fall; `size` is its largest half extent (m).
 pub(super) fn motion(stretch: &[Glimpse], size: f64) -> Motion {
-    let tracker = tracked(stretch);
+    let tracker = tracked(stretch, |_| ());
     if tracker.turnovers() == 0 && goes_round(stretch, size) {
         return Motion::Helix;
     }
@@ -83,25 +87,41 @@ pub(super) fn motion(stretch: &[Glimpse], size: f64) -> Motion {
     }
 }
 
-/// How the thin axis swings and turns over.
-fn tracked(stretch: &[Glimpse]) -> MotionTracker {
+/// How the thin axis swings and turns over; `event` hears of the glimpses at which it does.
+fn tracked(stretch: &[Glimpse], mut event: impl FnMut(usize)) -> MotionTracker {
+    let first = stretch.first().map_or([0.0, 1.0, 0.0], |first| first.axis);
     // The glimpses have the axis in the world already.
-    let mut axes = stretch.iter().map(|glimpse| glimpse.axis);
-    let first = axes.next().unwrap_or([0.0, 1.0, 0.0]);
     let mut tracker = MotionTracker::new(first, &State::default());
-    axes.for_each(|axis| tracker.follow_axis(axis));
+    let mut events = 0;
+    for (place, glimpse) in stretch.iter().enumerate() {
+        tracker.follow_axis(glimpse.axis);
+        let now = tracker.swings() + tracker.turnovers();
+        if now > events {
+            event(place);
+        }
+        events = now;
+    }
     tracker
 }
 
-/// Whether a stretch has a motion from its beginning to its end: what swings or turns over does so in both halves.
+/// Whether a stretch has a motion from its beginning to its end: what swings or turns over does so all the time.
 fn has(stretch: &[Glimpse], size: f64, wanted: Motion) -> bool {
-    let (first, second) = stretch.split_at(stretch.len() / 2);
-    let lively = |half| {
-        let tracker = tracked(half);
-        tracker.swings() + tracker.turnovers() > 0
+    if motion(stretch, size) != wanted {
+        return false;
+    }
+    if matches!(wanted, Motion::Steady | Motion::Helix | Motion::Spiral) {
+        return true;
+    }
+    let mut events = Vec::new();
+    tracked(stretch, |place| events.push(place));
+    let (Some(&first), Some(&last)) = (events.first(), events.last()) else {
+        return false;
     };
-    let still = matches!(wanted, Motion::Steady | Motion::Helix | Motion::Spiral);
-    motion(stretch, size) == wanted && (still || lively(first) && lively(second))
+    let patience = match events.len() {
+        1 => 0.5 * stretch.len() as f64,
+        more => IDLE * (last - first) as f64 / (more - 1) as f64,
+    };
+    first as f64 <= patience && (stretch.len() - last) as f64 <= patience
 }
 
 /// Turns in one sense; none if they are in both.
@@ -158,34 +178,33 @@ fn goes_round(stretch: &[Glimpse], size: f64) -> bool {
     turns >= 1.0 && radius >= size
 }
 
-/// Share of the time of a fall that has another motion than `wanted`, which follow each other, cut where it is least.
-pub(super) fn wrong_share(wanted: &[Motion], seen: &[Glimpse], size: f64) -> f64 {
-    let right = |from: usize, to: usize, wanted: Motion| {
-        let place = |piece: usize| piece * seen.len() / PIECES;
-        has(&seen[place(from)..place(to)], size, wanted)
-    };
-    // Most pieces that are right, up to each end of a piece.
-    let mut most = [None; PIECES + 1];
-    most[0] = Some(0);
-    let fewest = if wanted.len() == 1 { PIECES } else { FEWEST };
-    for (number, &wanted_now) in wanted.iter().enumerate() {
-        let left = wanted.len() - number - 1;
-        let mut next = [None; PIECES + 1];
-        let ends = fewest..=PIECES - left * FEWEST;
-        for end in ends.filter(|end| left > 0 || *end == PIECES) {
-            for from in 0..=end - fewest {
-                let Some(before) = most[from] else { continue };
-                let gain = if right(from, end, wanted_now) {
-                    end - from
-                } else {
-                    0
-                };
-                next[end] = next[end].max(Some(before + gain));
+/// How far a fall is from having the motions `wanted`, one after the other, in units of the tolerance: by the share of its
+/// time that is of none of them, cut where that is least. Where one is not there at all it is farther than the tolerance.
+pub(super) fn miss(wanted: &[Motion], seen: &[Glimpse], size: f64) -> f64 {
+    let place = |piece: usize| piece * seen.len() / PIECES;
+    let right = |from, to, wanted| has(&seen[place(from)..place(to)], size, wanted);
+    // Up to each piece: how many of the motions so far are there, and on how many pieces.
+    let mut most = [(0usize, 0usize); PIECES + 1];
+    for &wanted in wanted {
+        let mut next = most;
+        for end in FEWEST..=PIECES {
+            for from in 0..=end - FEWEST {
+                let (there, pieces) = most[from];
+                let with = (there + 1, pieces + end - from);
+                if with > next[end] && right(from, end, wanted) {
+                    next[end] = with;
+                }
             }
+            next[end] = next[end].max(next[end - 1]);
         }
         most = next;
     }
-    1.0 - most[PIECES].unwrap_or(0) as f64 / PIECES as f64
+    let (there, pieces) = most[PIECES];
+    let of_none = (1.0 - pieces as f64 / PIECES as f64) / OF_NONE;
+    match wanted.len() - there {
+        0 => of_none,
+        missing => 1.0 + of_none + missing as f64,
+    }
 }
 
 #[cfg(test)]
@@ -245,11 +264,12 @@ mod tests {
             true => ([0.0, 0.0], 0.0, 0.0),
             false => ([0.2 * swing(t), 0.0], swing(t), 0.0),
         });
-        let wrong = |wanted: &[Motion]| wrong_share(wanted, &seen, SIZE);
-        assert_eq!(wrong(&[Motion::Steady, Motion::Flutter]), 0.0);
-        assert_eq!(wrong(&[Motion::Flutter]), 1.0);
-        assert_eq!(wrong(&[Motion::Tumble]), 1.0);
-        assert!(wrong(&[Motion::Tumble, Motion::Flutter]) > 0.1);
-        assert!(wrong(&[Motion::Flutter, Motion::Steady]) > 0.1);
+        let miss = |wanted: &[Motion]| miss(wanted, &seen, SIZE);
+        assert!(miss(&[Motion::Steady, Motion::Flutter]) < 0.3);
+        // A third of the time or more is of no flutter.
+        assert!((1.1..3.0).contains(&miss(&[Motion::Flutter])));
+        assert!(miss(&[Motion::Tumble]) > 6.0);
+        assert!(miss(&[Motion::Tumble, Motion::Flutter]) > 2.0);
+        assert!(miss(&[Motion::Flutter, Motion::Steady]) > 1.0);
     }
 }

@@ -17,6 +17,8 @@ const INTERVALS: f64 = 8.0;
 const POINTS: usize = 11;
 /// Numbers of all.
 const ALL: usize = RELEASE + 3 * POINTS;
+/// Normals of a draw: three more, which move all control points together.
+const NORMALS: usize = ALL + 3;
 /// Steps that no run ever takes: their normals are free for the draws.
 const DRAW: u64 = u64::MAX;
 
@@ -87,7 +89,12 @@ impl<'a> Space<'a> {
         let normals = self.normals(number);
         let mut alone = true;
         for place in self.free() {
-            near.at[place] = reflected(near.at[place] + spread * normals[place]);
+            // A force that changes as a whole takes a body farther than one that changes to and fro.
+            let together = match place.checked_sub(RELEASE) {
+                Some(of_force) => 2.0 * normals[ALL + of_force % 3],
+                None => 0.0,
+            };
+            near.at[place] = reflected(near.at[place] + spread * (normals[place] + together));
             alone = false;
         }
         if alone {
@@ -97,12 +104,12 @@ impl<'a> Space<'a> {
     }
 
     /// Normals of draw `number`, beside those of the noise.
-    fn normals(&self, number: u32) -> [f64; ALL] {
+    fn normals(&self, number: u32) -> [f64; NORMALS] {
         let stream = NoiseStream {
             seed: self.scene.seed,
             body: number,
         };
-        let mut normals = [0.0; ALL];
+        let mut normals = [0.0; NORMALS];
         for (step, some) in (0..).zip(normals.chunks_mut(12)) {
             some.copy_from_slice(&stream.normals(DRAW - step)[..some.len()]);
         }

@@ -162,6 +162,36 @@ fn built_in_bodies_move_as_they_are_known_to() {
     }
 }
 
+#[test]
+fn a_precomputed_turbulence_is_that_of_the_search() {
+    let text = "fluid.preset = \"air\"\n\
+                body = { shape = \"box\", size = [0.085, 0.0003, 0.055], triangles = 300, density = 900.0 }\n\
+                release = { position = [0.0, 1.0, 0.0], velocity = [5.0, 0.0, 0.0], carried = 0.05 }\n\
+                run = { time_step = 0.004, ground = 0.0, model = \"consistent\", turbulence = \"history\" }\n\
+                turbulence = { cells = [8, 16, 8], duration = 0.5 }\n\
+                direct = { land.side = \"up\", best = 2, falls = 32, free = { tilt = 90.0, velocity = 2.0 } }";
+    let scene = Scene::parse("card", "card.toml", text).unwrap();
+    let card = Prepared::new(scene, None, &()).unwrap();
+    for best in search(&card, &()).unwrap().best {
+        // Baked anew.
+        let again = Prepared::new(best.scene(&card), None, &()).unwrap();
+        let fall = again.drop(&again.release(0), &());
+        assert_eq!(fall.states.last(), Some(&best.last));
+    }
+}
+
+#[test]
+fn a_thin_disc_in_water_is_found_on_a_helix() {
+    let text = "fluid.preset = \"water\"\n\
+                body = { shape = \"disc\", diameter = 0.03, thickness = 0.0005, triangles = 320, density = 1200.0 }\n\
+                release = { position = [0.0, 1.0, 0.0], tilt = 10.0 }\n\
+                run = { time_step = 0.005, duration = 60.0, ground = 0.0 }\n\
+                direct = { motion = [\"helix\"], best = 1, falls = 64, free.tilt = 90.0 }";
+    let scene = Scene::parse("disc", "disc.toml", text).unwrap();
+    let disc = Prepared::new(scene, None, &()).unwrap();
+    assert!(search(&disc, &()).unwrap().best[0].is_hit());
+}
+
 /// Asks to stop after so many reports.
 struct Impatient(AtomicU32);
 
