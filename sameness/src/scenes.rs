@@ -10,8 +10,9 @@ use langevin_rigid_scenes::scene::{Geometry, Scene, find};
 use crate::Line;
 use crate::fnv::Fnv;
 
-/// Thick and thin, flat and bent, in air and in water; under the models separated and consistent.
-const NAMES: [&str; 7] = [
+/// Thick and thin, flat and bent, in air and in water and between them, touching; under the models separated and
+/// consistent.
+const NAMES: [&str; 10] = [
     "coin",
     "ellipsoid-water",
     "paper-30",
@@ -19,16 +20,21 @@ const NAMES: [&str; 7] = [
     "feather",
     "airplane",
     "autumn",
+    "pond",
+    "coin-toss",
+    "leaves",
 ];
 /// Coarse, for bakes in a second without the optimizer.
 const TRIANGLES: usize = 200;
 /// Of the turbulence history.
 const CELLS: [usize; 3] = [16, 16, 8];
 const STEPS: u32 = 300;
+/// Bodies of a crowd.
+const CROWD: u32 = 12;
 /// No multiple of any number of lanes.
 const RUNS: u32 = 5;
 
-/// Three lines for each scene: its bake's bytes, the states of a fall, an ensemble.
+/// Three lines for each scene: its bake's bytes, the states of a fall or of all bodies of a world, an ensemble.
 pub(crate) fn lines() -> Result<Vec<Line>, Box<dyn Error>> {
     let mut lines = Vec::new();
     for name in NAMES {
@@ -48,6 +54,13 @@ fn coarse(mut scene: Scene) -> Scene {
         scene.settings.turbulence = TurbulenceSource::History;
         scene.grid.cells = CELLS;
     }
+    if let Some(crowd) = &mut scene.crowd {
+        // Soon on the ground, and on each other.
+        crowd.count = CROWD;
+        crowd.during = 0.1;
+        crowd.over = [0.2, 0.1, 0.2];
+        scene.release.position = [0.0, 0.2, 0.0];
+    }
     scene.stop.time = Some(scene.carried + f64::from(STEPS) * scene.time_step);
     scene
 }
@@ -59,10 +72,15 @@ fn of_scene(scene: Scene) -> Result<[Line; 3], Box<dyn Error>> {
     let mut bake = Fnv::default();
     bake.bytes(&prepared.baked().bake.to_bytes());
 
-    let fall = prepared.drop(&prepared.release(0), &());
-    fall.ended?;
+    let falls = match prepared.surroundings() {
+        Some(_) => prepared.drop_together(1, usize::MAX, &())?,
+        None => vec![prepared.drop(&prepared.release(0), &())],
+    };
     let mut states = Fnv::default();
-    fall.states.iter().for_each(|state| states.state(state));
+    for fall in falls {
+        fall.ended?;
+        fall.states.iter().for_each(|state| states.state(state));
+    }
 
     let falls = ensemble::run(&prepared, 0..RUNS, &());
     let statistics = Statistics::new(&falls);

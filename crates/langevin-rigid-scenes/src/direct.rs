@@ -59,6 +59,12 @@ pub enum DirectError {
         "the scene `{0}` does not say what its fall shall do: give it a [direct] (docs/directing.md)"
     )]
     NothingAsked(String),
+    /// What is asked is of one body, and ends at the ground.
+    #[error(
+        "the scene `{0}` is a world (docs/worlds.md), and `direct` knows falls of one body that end at the ground: leave out \
+         [contact], [[obstacle]], [water] and [crowd]"
+    )]
+    World(String),
     /// The drawn path cannot be used.
     #[error(transparent)]
     Path(#[from] DrawnPathError),
@@ -160,6 +166,9 @@ pub fn misses(
 
 fn asked(prepared: &Prepared) -> Result<&Direct, DirectError> {
     let scene = prepared.scene();
+    if scene.is_world() {
+        return Err(DirectError::World(scene.name.clone()));
+    }
     let direct = scene.direct.as_ref();
     direct.ok_or_else(|| DirectError::NothingAsked(scene.name.clone()))
 }
