@@ -195,7 +195,9 @@ impl Mesh {
         for (number, triangle) in given.iter().enumerate() {
             let corner = |k: usize| {
                 let vertex = vertices.get(triangle[k] as usize);
-                vertex.map(|v| Vector::from(*v)).ok_or(ObstacleError::Index(number))
+                vertex
+                    .map(|v| Vector::from(*v))
+                    .ok_or(ObstacleError::Index(number))
             };
             let corners = [corner(0)?, corner(1)?, corner(2)?];
             let across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);

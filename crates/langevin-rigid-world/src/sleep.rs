@@ -4,8 +4,8 @@
 //! pose stirs those that slept against it.
 
 use langevin_rigid::State;
-use langevin_rigid::linalg::{Quat, Vec3};
 use langevin_rigid::linalg::vector::{norm, sub};
+use langevin_rigid::linalg::{Quat, Vec3};
 
 /// How long a body stays near a pose before it sleeps (s).
 const DROWSY: f64 = 0.5;
@@ -114,9 +114,12 @@ impl Rest {
     }
 }
 
-/// A speed (m/s) that disturbs the rest of a body of this radius (m): what it gains in falling by so much of it.
+/// A speed (m/s) that disturbs the rest of a body of this radius (m): what it gains in falling by so much of it, and
+/// without weight what takes it so far before it would fall asleep.
 pub(crate) fn disturbing(radius: f64, gravity: f64) -> f64 {
-    (2.0 * NEAR * gravity * radius).sqrt()
+    (2.0 * NEAR * gravity * radius)
+        .sqrt()
+        .max(NEAR * radius / DROWSY)
 }
 
 /// Speed of the fastest point of a body, at most (m/s).

@@ -49,8 +49,14 @@ pub(crate) fn hulls(
 /// Where hulls all but touch, the direction between their nearest points is lost in rounding; those of faces are exact.
 fn refined(a: Placed<'_>, b: Placed<'_>, found: Nearest, before: Option<Vector>) -> Nearest {
     let normal = found.normal;
-    let of_a = a.pose.rotation * a.hull.face_towards(a.pose.rotation.inverse() * normal).normal;
-    let of_b = b.pose.rotation * b.hull.face_towards(b.pose.rotation.inverse() * -normal).normal;
+    let of_a = a.pose.rotation
+        * a.hull
+            .face_towards(a.pose.rotation.inverse() * normal)
+            .normal;
+    let of_b = b.pose.rotation
+        * b.hull
+            .face_towards(b.pose.rotation.inverse() * -normal)
+            .normal;
     // The way out of a thin body must not lead through it.
     let before = before.filter(|_| found.gap < 0.0);
     let same = |normal: &Vector| before.is_none_or(|before| normal.dot(before) > SAME);
@@ -60,7 +66,13 @@ fn refined(a: Placed<'_>, b: Placed<'_>, found: Nearest, before: Option<Vector>)
         .flatten()
         .filter(same)
         .map(|normal| along(a, b, normal))
-        .reduce(|best, next| if next.gap > best.gap + ROUNDING * b.size { next } else { best });
+        .reduce(|best, next| {
+            if next.gap > best.gap + ROUNDING * b.size {
+                next
+            } else {
+                best
+            }
+        });
     match widest {
         Some(widest) if widest.gap < found.gap || widest.normal != normal => widest,
         _ => found,
@@ -88,12 +100,7 @@ pub(crate) fn triangle(triangle: &Triangle, b: Placed<'_>, reach: f64) -> Option
 }
 
 /// A half-space and a hull with corners closer to it than `reach` (m).
-pub(crate) fn half_space(
-    normal: Vector,
-    offset: f64,
-    b: Placed<'_>,
-    reach: f64,
-) -> Option<Patch> {
+pub(crate) fn half_space(normal: Vector, offset: f64, b: Placed<'_>, reach: f64) -> Option<Patch> {
     let along = b.pose.rotation.inverse() * normal;
     let height = b.pose.translation.dot(normal) - offset;
     let near = b.hull.points.iter().filter_map(|point| {
@@ -200,7 +207,10 @@ fn patch(a: Placed<'_>, b: Placed<'_>, nearest: Nearest, reach: f64) -> Patch {
     let mut points = Vec::new();
     let face_a = a.hull.face_towards(a.pose.rotation.inverse() * normal);
     let face_b = b.hull.face_towards(b.pose.rotation.inverse() * -normal);
-    let (up_a, up_b) = (a.pose.rotation * face_a.normal, b.pose.rotation * face_b.normal);
+    let (up_a, up_b) = (
+        a.pose.rotation * face_a.normal,
+        b.pose.rotation * face_b.normal,
+    );
     if up_a.dot(normal) > ALONG && up_b.dot(normal) < -ALONG {
         let (across, along) = normal.any_orthonormal_pair();
         let flat = |p: Vector| Vec2::new((p - on_a).dot(across), (p - on_a).dot(along));
@@ -229,7 +239,10 @@ fn patch(a: Placed<'_>, b: Placed<'_>, nearest: Nearest, reach: f64) -> Patch {
         }
     }
     // Where faces lie on each other their corners hold them; one point more would cost one of these its place.
-    let lowest = points.iter().map(|point| point.gap).fold(f64::INFINITY, f64::min);
+    let lowest = points
+        .iter()
+        .map(|point| point.gap)
+        .fold(f64::INFINITY, f64::min);
     if gap < lowest - 1e-6 * a.size.min(b.size) {
         points.push(Point { on_a, on_b, gap });
     }
@@ -286,7 +299,11 @@ mod tests {
         };
         for turn in [0.0, 0.3, 1.0] {
             let patch = hulls(placed(0.0, 0.0), placed(0.0301, turn), 1e-3, None).unwrap();
-            assert!((patch.normal - Vector::Y).length() < 1e-9, "{}", patch.normal);
+            assert!(
+                (patch.normal - Vector::Y).length() < 1e-9,
+                "{}",
+                patch.normal
+            );
             assert_eq!(patch.points.len(), 4);
             for point in &patch.points {
                 assert!((point.gap - 1e-4).abs() < 1e-12);

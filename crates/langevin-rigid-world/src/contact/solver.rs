@@ -17,6 +17,9 @@ const MENDING_SWEEPS: usize = 10;
 /// Share of the overlap at the begin of a step that is mended in it.
 const MENDED: f64 = 0.2;
 
+/// Speeds are found to this share of the fastest approach, where that is coarser than the rules.
+const ROUNDING: f64 = 1e-6;
+
 /// A linear and an angular part, world frame.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Twist {
@@ -42,7 +45,10 @@ impl Twist {
             (1.0 - angle / 6.0, 0.5 - angle / 24.0)
         } else {
             let length = angle.sqrt();
-            (libm::sin(length) / length, (1.0 - libm::cos(length)) / angle)
+            (
+                libm::sin(length) / length,
+                (1.0 - libm::cos(length)) / angle,
+            )
         };
         self.linear + across * first + turn.cross(across) * second
     }
@@ -144,9 +150,14 @@ struct Row {
 
 impl Row {
     fn new(contact: &Contact, direction: Vector, movers: &[Mover]) -> Self {
-        let (moment_a, moment_b) = (contact.arm_a.cross(direction), contact.arm_b.cross(direction));
+        let (moment_a, moment_b) = (
+            contact.arm_a.cross(direction),
+            contact.arm_b.cross(direction),
+        );
         let push = |mover: Option<usize>, moment| {
-            mover.map_or_else(Twist::default, |i| movers[i].inverse_mass.times(direction, moment))
+            mover.map_or_else(Twist::default, |i| {
+                movers[i].inverse_mass.times(direction, moment)
+            })
         };
         let (push_a, push_b) = (push(contact.a, moment_a), push(contact.b, moment_b));
         let response = |push: &Twist, moment| direction.dot(push.linear) + push.angular.dot(moment);
@@ -157,7 +168,11 @@ impl Row {
             moment_b,
             push_a,
             push_b,
-            mass: if compliance > 0.0 { 1.0 / compliance } else { 0.0 },
+            mass: if compliance > 0.0 {
+                1.0 / compliance
+            } else {
+                0.0
+            },
             impulse: 0.0,
             before: 0.0,
         }
@@ -219,12 +234,14 @@ pub(crate) fn solve(movers: &mut [Mover], contacts: &mut [Contact], rules: &Rule
     for (contact, rows) in contacts.iter().zip(&mut rows) {
         warm_start(contact, rows, movers);
     }
+    let approach = rows.iter().map(|rows| -rows[0].before).fold(0.0, f64::max);
+    let tolerance = rules.tolerance.max(ROUNDING * approach);
     for _ in 0..SWEEPS {
         let mut change: f64 = 0.0;
         for (contact, rows) in contacts.iter().zip(&mut rows) {
             change = change.max(relax(contact, rows, movers, rules.dt));
         }
-        if change < rules.tolerance {
+        if change < tolerance {
             break;
         }
     }
@@ -259,11 +276,19 @@ fn relax(contact: &Contact, rows: &mut [Row; 3], movers: &mut [Mover], dt: f64) 
     // A gap may close within the step.
     let closing = contact.gap.max(0.0) / dt;
     let speed = normal.speed(contact, movers, velocity) + closing;
+    if speed >= 0.0 && normal.impulse == 0.0 {
+        // What does not push does not rub: its friction is zero since its last push.
+        return 0.0;
+    }
     let impulse = (normal.impulse - normal.mass * speed).max(0.0);
     let change = impulse - normal.impulse;
     normal.impulse = impulse;
     normal.push(contact, movers, change, velocity_mut);
-    let mut largest = if normal.mass > 0.0 { (change / normal.mass).abs() } else { 0.0 };
+    let mut largest = if normal.mass > 0.0 {
+        (change / normal.mass).abs()
+    } else {
+        0.0
+    };
 
     let wanted = [0, 1].map(|k| {
         let row = &friction[k];
@@ -315,13 +340,7 @@ fn hold_energy(contacts: &[Contact], rows: &mut [[Row; 3]], movers: &mut [Mover]
 
 /// Sends back what met in this step at `restitution` times the speed of approach (Newton's hypothesis), as far as the
 /// energy `lost` so far (J) pays for it.
-fn bounce(
-    contacts: &[Contact],
-    rows: &[[Row; 3]],
-    movers: &mut [Mover],
-    rules: &Rules,
-    lost: f64,
-) {
+fn bounce(contacts: &[Contact], rows: &[[Row; 3]], movers: &mut [Mover], rules: &Rules, lost: f64) {
     let bouncing: Vec<(&Contact, &Row, f64)> = contacts
         .iter()
         .zip(rows)
@@ -331,7 +350,8 @@ fn bounce(
         .map(|(contact, rows)| (contact, &rows[0], -contact.restitution * rows[0].before))
         .collect();
     let speeds = |movers: &[Mover]| -> Vec<f64> {
-        let speed = |(contact, row, _): &(&Contact, &Row, f64)| row.speed(contact, movers, velocity);
+        let speed =
+            |(contact, row, _): &(&Contact, &Row, f64)| row.speed(contact, movers, velocity);
         bouncing.iter().map(speed).collect()
     };
     let before = speeds(movers);
