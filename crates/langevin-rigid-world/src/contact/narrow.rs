@@ -308,8 +308,9 @@ mod tests {
             for point in &patch.points {
                 assert!((point.gap - 1e-4).abs() < 1e-12);
             }
-            let across = |a: &Point, b: &Point| a.on_b.distance(b.on_b);
-            let longest = across(&patch.points[0], &patch.points[1]);
+            let first = patch.points[0].on_b;
+            let away = patch.points.iter().map(|point| point.on_b.distance(first));
+            let longest = away.fold(0.0, f64::max);
             assert!(longest > 0.15, "{longest}");
         }
     }

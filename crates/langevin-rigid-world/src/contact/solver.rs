@@ -160,22 +160,30 @@ impl Row {
             })
         };
         let (push_a, push_b) = (push(contact.a, moment_a), push(contact.b, moment_b));
-        let response = |push: &Twist, moment| direction.dot(push.linear) + push.angular.dot(moment);
-        let compliance = response(&push_a, moment_a) + response(&push_b, moment_b);
-        Self {
+        let mut row = Self {
             direction,
             moment_a,
             moment_b,
             push_a,
             push_b,
-            mass: if compliance > 0.0 {
-                1.0 / compliance
-            } else {
-                0.0
-            },
+            mass: 0.0,
             impulse: 0.0,
             before: 0.0,
-        }
+        };
+        let compliance = row.compliance(&row);
+        row.mass = if compliance > 0.0 {
+            1.0 / compliance
+        } else {
+            0.0
+        };
+        row
+    }
+
+    /// Relative speed along this by a unit impulse along another row of the contact (1/kg).
+    fn compliance(&self, other: &Self) -> f64 {
+        let response =
+            |push: &Twist, moment| self.direction.dot(push.linear) + push.angular.dot(moment);
+        response(&other.push_a, self.moment_a) + response(&other.push_b, self.moment_b)
     }
 
     /// Speed of b relative to a along the direction, where `of` says how a mover moves.
@@ -223,7 +231,8 @@ pub(crate) fn solve(movers: &mut [Mover], contacts: &mut [Contact], rules: &Rule
         .iter()
         .map(|contact| {
             let (across, along) = contact.normal.any_orthonormal_pair();
-            [contact.normal, across, along].map(|d| Row::new(contact, d, movers))
+            let rows = [contact.normal, across, along].map(|d| Row::new(contact, d, movers));
+            with_round_friction(rows)
         })
         .collect();
     for (contact, rows) in contacts.iter().zip(&mut rows) {
@@ -257,6 +266,18 @@ pub(crate) fn solve(movers: &mut [Mover], contacts: &mut [Contact], rules: &Rule
     }
     mend(contacts, &rows, movers, rules);
     bounce(contacts, &rows, movers, rules, lost);
+}
+
+/// Friction rows with one mass for both, that of the direction that yields most: else friction would not oppose the
+/// sliding but lean towards the direction that yields less.
+fn with_round_friction([normal, mut first, mut second]: [Row; 3]) -> [Row; 3] {
+    let (c1, c2) = (first.compliance(&first), second.compliance(&second));
+    let mixed = first.compliance(&second);
+    let half = 0.5 * (c1 - c2);
+    let most = 0.5 * (c1 + c2) + (half * half + mixed * mixed).sqrt();
+    let mass = if most > 0.0 { 1.0 / most } else { 0.0 };
+    (first.mass, second.mass) = (mass, mass);
+    [normal, first, second]
 }
 
 fn warm_start(contact: &Contact, rows: &mut [Row; 3], movers: &mut [Mover]) {
