@@ -15,7 +15,7 @@ const BOUNCING_SWEEPS: usize = 10;
 /// Sweeps that mend overlap.
 const MENDING_SWEEPS: usize = 10;
 /// Share of the overlap at the begin of a step that is mended in it.
-const MENDED: f64 = 0.2;
+const MENDED: f64 = 0.5;
 
 /// Speeds are found to this share of the fastest approach, where that is coarser than the rules.
 const ROUNDING: f64 = 1e-6;

@@ -22,10 +22,9 @@ pub(super) struct Held {
     pub(super) impulse: Vector,
     /// From a to b, world frame.
     pub(super) normal: Vector,
+    /// Whether the two are too far in each other to be let be.
+    pub(super) is_deep: bool,
 }
-
-/// A point of a body is where it was if it has moved over it by less than this, in its radii.
-const SAME_POINT: f64 = 0.05;
 
 /// All impulses of a step, in the order of their keys.
 #[derive(Debug, Clone, Default)]
@@ -43,7 +42,8 @@ impl Impulses {
         self.sorted.iter()
     }
 
-    fn of(&self, key: Key) -> impl Iterator<Item = &Held> {
+    /// Those of a patch.
+    pub(super) fn of(&self, key: Key) -> impl Iterator<Item = &Held> {
         let from = self.sorted.partition_point(|held| held.key < key);
         self.sorted[from..]
             .iter()
@@ -53,17 +53,5 @@ impl Impulses {
     /// The normal at which two touched.
     pub(super) fn normal(&self, key: Key) -> Option<Vector> {
         self.of(key).next().map(|held| held.normal)
-    }
-
-    /// The impulse nearest to a point of b, in its frame, whose radius is given (m).
-    pub(super) fn near(&self, key: Key, at: Vector, radius: f64) -> Vector {
-        let mut best = (SAME_POINT * radius, Vector::ZERO);
-        for held in self.of(key) {
-            let away = held.at.distance(at);
-            if away < best.0 {
-                best = (away, held.impulse);
-            }
-        }
-        best.1
     }
 }

@@ -3,10 +3,10 @@
 use langevin_rigid::State;
 use parry3d_f64::math::Vector;
 
-use super::impulses::{Held, Key};
+use super::impulses::Key;
 use super::near::Met;
 use super::solve::Solved;
-use super::{World, placed};
+use super::{Member, World};
 use crate::contact::Point;
 use crate::sleep::{self, Bed};
 
@@ -16,33 +16,39 @@ const LOOKS: u64 = 16;
 impl World {
     /// Wakes what sleeps and is hit; whether there was any.
     pub(super) fn wake_the_hit(&mut self, met: &[Met], dt: f64) -> bool {
-        let mut hit = Vec::new();
-        for met in met.iter().filter(|met| met.key.obstacle.is_none()) {
-            let (a, b) = (met.key.a as usize, met.key.b as usize);
-            let sleeper = match (self.is_asleep(a), self.is_asleep(b)) {
-                (true, false) => a,
-                (false, true) => b,
-                _ => continue,
-            };
-            let kind = &self.members[sleeper].kind;
-            let disturbing = sleep::disturbing(kind.shape().radius(), self.gravity);
-            let pressed = self.members[sleeper].rest.pressed();
-            let fast = |point: &Point| {
-                let velocity = |body: usize, at: Vector| velocity_at(&self.members[body].state, at);
-                let approach = velocity(a, point.on_a) - velocity(b, point.on_b);
-                let push = self.impulse_at(met.key, point);
-                // Hit, or pressed upon by more than it carried and its own weight.
-                (point.gap <= met.skin && approach.dot(met.patch.normal) > disturbing)
-                    || push > pressed + self.gravity * dt / kind.lightness()
-            };
-            if met.patch.points.iter().any(fast) {
-                hit.push(sleeper);
-            }
-        }
+        let hit: Vec<usize> = met.iter().filter_map(|met| self.hit_by(met, dt)).collect();
         for &body in &hit {
             self.wake(body);
         }
         !hit.is_empty()
+    }
+
+    /// The sleeper of two that have met, if it is hit, or pressed upon by more than it carried and its own weight.
+    fn hit_by(&self, met: &Met, dt: f64) -> Option<usize> {
+        let (a, b) = (met.key.a as usize, met.key.b as usize);
+        let sleeper = match (met.key.obstacle, self.is_asleep(a), self.is_asleep(b)) {
+            (None, true, false) => a,
+            (None, false, true) => b,
+            _ => return None,
+        };
+        let Member { kind, rest, .. } = &self.members[sleeper];
+        let disturbing = sleep::disturbing(kind.shape().radius(), self.gravity);
+        let fall = self.gravity * dt;
+        let carried = rest.pressed() + fall / kind.lightness();
+        let pressing: f64 = self
+            .impulses
+            .of(met.key)
+            .map(|held| held.impulse.length())
+            .sum();
+        let is_hit = |point: &Point| {
+            let velocity = |body: usize, at: Vector| velocity_at(&self.members[body].state, at);
+            let apart = velocity(b, point.on_b) - velocity(a, point.on_a);
+            let approach = -apart.dot(met.patch.normal);
+            // Before the step that they meet in, or the sleeper would be as a wall to what hits it.
+            let meet = point.gap - met.skin <= (1.5 * approach + fall) * dt;
+            meet && approach > disturbing
+        };
+        (pressing > carried || met.patch.points.iter().any(is_hit)).then_some(sleeper)
     }
 
     /// Wakes what sleeps in wind that may move it. Looks at each body now and then.
@@ -62,15 +68,6 @@ impl World {
         }
     }
 
-    /// The impulse of the last step at a point (N s), without its direction.
-    fn impulse_at(&self, key: Key, point: &Point) -> f64 {
-        let member = &self.members[key.b as usize];
-        let at = placed(&member.state).inverse_transform_point(point.on_b);
-        self.impulses
-            .near(key, at, member.kind.shape().radius())
-            .length()
-    }
-
     /// Takes over what was solved; puts to sleep what has come to rest, and wakes what is stirred.
     pub(super) fn settle(&mut self, solved: Solved, dt: f64) {
         let mut stirred = vec![false; self.members.len()];
@@ -81,28 +78,36 @@ impl World {
             }
         }
         self.impulses = solved.impulses;
-        let mut touching = vec![None; self.members.len()];
-        for Held { key, impulse, .. } in self.impulses.iter() {
-            let mut touch = |body: u32, other: Option<u32>| {
-                let bed: &mut Bed = touching[body as usize].get_or_insert_default();
-                bed.against.extend(other);
-                bed.pressed += impulse.length();
-            };
-            touch(key.b, key.obstacle.is_none().then_some(key.a));
-            if key.obstacle.is_none() {
-                touch(key.a, Some(key.b));
-            }
-        }
-        for (member, touching) in self.members.iter_mut().zip(touching) {
+        let beds = self.beds();
+        for (member, bed) in self.members.iter_mut().zip(beds) {
             if member.rest.is_asleep() {
                 if member.rest.is_stirred_by(&stirred) {
                     member.rest.wake();
                 }
-            } else if let Some(touching) = touching.filter(|_| member.rest.is_drowsy()) {
-                member.rest.sleep(touching);
+            } else if let Some(bed) = bed.filter(|bed| member.rest.is_drowsy(bed)) {
+                member.rest.sleep(bed);
                 (member.state.velocity, member.state.angular_velocity) = ([0.0; 3], [0.0; 3]);
             }
         }
+    }
+
+    /// What each body touches.
+    fn beds(&self) -> Vec<Option<Bed>> {
+        let mut beds = vec![None; self.members.len()];
+        for held in self.impulses.iter() {
+            let mut touch = |body: u32, other: Option<u32>| {
+                let bed: &mut Bed = beds[body as usize].get_or_insert_default();
+                bed.against.extend(other);
+                bed.pressed += held.impulse.length();
+                bed.is_deep |= held.is_deep;
+            };
+            let Key { obstacle, a, b, .. } = held.key;
+            touch(b, obstacle.is_none().then_some(a));
+            if obstacle.is_none() {
+                touch(a, Some(b));
+            }
+        }
+        beds
     }
 }
 

@@ -1,5 +1,6 @@
 //! From what is close to where bodies go.
 
+use arrayvec::ArrayVec;
 use langevin_rigid::State;
 use langevin_rigid::linalg::quat_from_rotation_vector;
 use parry3d_f64::math::{Rotation, Vector};
@@ -8,9 +9,12 @@ use rayon::prelude::*;
 use super::impulses::{Held, Impulses, Key};
 use super::near::Met;
 use super::{Member, World, placed};
-use crate::contact::Point;
 use crate::contact::island::Islands;
 use crate::contact::solver::{self, Contact, InverseMass, Mover, Rules, Twist};
+use crate::contact::{MOST_POINTS, Point};
+
+/// Two that overlap by more than this do not fall asleep at once, in gaps that are kept between them.
+const DEEP: f64 = 4.0;
 
 /// What a step makes of all bodies.
 pub(super) struct Solved {
@@ -63,10 +67,27 @@ impl World {
                 islands.push(Vec::new());
                 islands.len() - 1
             });
-            let touches = met.patch.points.iter().map(|point| self.touch(met, point));
-            islands[island].extend(touches);
+            islands[island].extend(self.touches(met));
         }
         islands
+    }
+
+    /// The contacts of a patch. Each impulse of the last step goes to the point that is nearest to where it was, so that
+    /// none is lost when the points of a patch change.
+    fn touches(&self, met: &Met) -> ArrayVec<Touch, MOST_POINTS> {
+        let points = met.patch.points.iter();
+        let mut touches: ArrayVec<Touch, MOST_POINTS> =
+            points.map(|point| self.touch(met, point)).collect();
+        for held in self.impulses.of(met.key) {
+            let away = |touch: &Touch| touch.at.distance_squared(held.at);
+            let nearest = touches
+                .iter_mut()
+                .min_by(|a, b| away(a).total_cmp(&away(b)));
+            if let Some(nearest) = nearest {
+                nearest.contact.impulse += held.impulse;
+            }
+        }
+        touches
     }
 
     fn touch(&self, met: &Met, point: &Point) -> Touch {
@@ -84,7 +105,6 @@ impl World {
         let frame = placed(&second.state);
         let centre_a = a.map_or(Vector::ZERO, |a| self.members[a].state.position.into());
         let at = frame.inverse_transform_point(point.on_b);
-        let radius = second.kind.shape().radius();
         Touch {
             key,
             at,
@@ -98,7 +118,7 @@ impl World {
                 skin: met.skin,
                 friction: material.friction,
                 restitution: material.restitution,
-                impulse: self.impulses.near(key, at, radius),
+                impulse: Vector::ZERO,
             },
         }
     }
@@ -170,13 +190,18 @@ impl World {
 impl Touch {
     fn held(&self) -> Option<Held> {
         let Contact {
-            impulse, normal, ..
+            impulse,
+            normal,
+            gap,
+            skin,
+            ..
         } = self.contact;
         (impulse != Vector::ZERO).then_some(Held {
             key: self.key,
             at: self.at,
             impulse,
             normal,
+            is_deep: gap < -DEEP * skin,
         })
     }
 }

@@ -7,16 +7,16 @@ use langevin_rigid::linalg::{Quat, Vec3, quat_from_rotation_vector};
 use langevin_rigid::{Body, Fluid, Model, NoiseStream, Settings, State, Stepper};
 use langevin_rigid_world::{Kind, Material, Obstacle, Shape, World};
 
-pub const G: f64 = 9.81;
-pub const DOWN: Vec3 = [0.0, -G, 0.0];
+pub(crate) const G: f64 = 9.81;
+pub(crate) const DOWN: Vec3 = [0.0, -G, 0.0];
 
 /// A fluid so thin that a body in it is all but in a void.
-pub const THIN: Fluid = Fluid {
+pub(crate) const THIN: Fluid = Fluid {
     density: 1e-9,
     ..Fluid::AIR
 };
 
-pub fn settings(model: Model, gravity: Vec3) -> Settings {
+pub(crate) fn settings(model: Model, gravity: Vec3) -> Settings {
     Settings {
         model,
         gravity,
@@ -25,7 +25,7 @@ pub fn settings(model: Model, gravity: Vec3) -> Settings {
 }
 
 /// Bodies without drag.
-pub fn kind(body: &Body, fluid: &Fluid, gravity: Vec3, material: Material) -> Arc<Kind> {
+pub(crate) fn kind(body: &Body, fluid: &Fluid, gravity: Vec3, material: Material) -> Arc<Kind> {
     shaped(
         body,
         Shape::of_body(body).unwrap(),
@@ -35,7 +35,7 @@ pub fn kind(body: &Body, fluid: &Fluid, gravity: Vec3, material: Material) -> Ar
     )
 }
 
-pub fn shaped(
+pub(crate) fn shaped(
     body: &Body,
     shape: Shape,
     fluid: &Fluid,
@@ -47,25 +47,25 @@ pub fn shaped(
     Arc::new(Kind::new(stepper, shape, material).unwrap())
 }
 
-pub fn material(friction: f64, restitution: f64) -> Material {
+pub(crate) fn material(friction: f64, restitution: f64) -> Material {
     Material {
         friction,
         restitution,
     }
 }
 
-pub fn ground(material: Material) -> Obstacle {
+pub(crate) fn ground(material: Material) -> Obstacle {
     Obstacle::half_space([0.0, 1.0, 0.0], 0.0, material).unwrap()
 }
 
-pub fn at(position: Vec3) -> State {
+pub(crate) fn at(position: Vec3) -> State {
     State {
         position,
         ..State::default()
     }
 }
 
-pub fn turned(position: Vec3, rotation: Vec3) -> State {
+pub(crate) fn turned(position: Vec3, rotation: Vec3) -> State {
     State {
         position,
         orientation: quat_from_rotation_vector(rotation),
@@ -73,23 +73,23 @@ pub fn turned(position: Vec3, rotation: Vec3) -> State {
     }
 }
 
-pub fn noise(body: u32) -> NoiseStream {
+pub(crate) fn noise(body: u32) -> NoiseStream {
     NoiseStream { seed: 1, body }
 }
 
-pub fn run(world: &mut World, time: f64, dt: f64) {
+pub(crate) fn run(world: &mut World, time: f64, dt: f64) {
     for _ in 0..(time / dt).round() as usize {
         world.step(dt).unwrap();
     }
 }
 
-pub const UPRIGHT: Quat = [0.0, 0.0, 0.0, 1.0];
+pub(crate) const UPRIGHT: Quat = [0.0, 0.0, 0.0, 1.0];
 
 /// Numbers between -1 and 1 that look random and are the same for ever.
-pub struct Numbers(pub u64);
+pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
-    pub fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self
             .0
             .wrapping_mul(6364136223846793005)
@@ -97,7 +97,7 @@ impl Numbers {
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    pub fn vector(&mut self, scale: f64) -> Vec3 {
+    pub(crate) fn vector(&mut self, scale: f64) -> Vec3 {
         std::array::from_fn(|_| scale * self.next())
     }
 }
