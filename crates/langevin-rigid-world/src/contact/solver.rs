@@ -10,6 +10,8 @@ use parry3d_f64::math::{Matrix, Rotation, Vector};
 
 /// Sweeps over all contacts at most.
 const SWEEPS: usize = 40;
+/// Over-relaxation of the normal impulses: what is pushed settles in fewer sweeps, and below 2 each still lowers the energy.
+const OVER: f64 = 1.3;
 /// Sweeps that find how bodies bounce.
 const BOUNCING_SWEEPS: usize = 10;
 /// Sweeps that mend overlap.
@@ -301,7 +303,7 @@ fn relax(contact: &Contact, rows: &mut [Row; 3], movers: &mut [Mover], dt: f64) 
         // What does not push does not rub: its friction is zero since its last push.
         return 0.0;
     }
-    let impulse = (normal.impulse - normal.mass * speed).max(0.0);
+    let impulse = (normal.impulse - OVER * normal.mass * speed).max(0.0);
     let change = impulse - normal.impulse;
     normal.impulse = impulse;
     normal.push(contact, movers, change, velocity_mut);
