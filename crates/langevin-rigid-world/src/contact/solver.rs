@@ -8,8 +8,10 @@
 use langevin_rigid::linalg::Mat6;
 use parry3d_f64::math::{Matrix, Rotation, Vector};
 
-/// Sweeps over all contacts at most.
-const SWEEPS: usize = 40;
+/// Sweeps over all contacts at most, and as many of these as go over so many contacts altogether: few bodies are solved
+/// well, of many bodies what is left of a step is solved in the next.
+const SWEEPS: [usize; 2] = [40, 100];
+const WORK: usize = 8000;
 /// Over-relaxation of the normal impulses: what is pushed settles in fewer sweeps, and below 2 each still lowers the energy.
 const OVER: f64 = 1.3;
 /// Sweeps that find how bodies bounce.
@@ -247,7 +249,8 @@ pub(crate) fn solve(movers: &mut [Mover], contacts: &mut [Contact], rules: &Rule
     }
     let approach = rows.iter().map(|rows| -rows[0].before).fold(0.0, f64::max);
     let tolerance = rules.tolerance.max(ROUNDING * approach);
-    for _ in 0..SWEEPS {
+    let sweeps = (WORK / contacts.len().max(1)).clamp(SWEEPS[0], SWEEPS[1]);
+    for _ in 0..sweeps {
         let mut change: f64 = 0.0;
         for (contact, rows) in contacts.iter().zip(&mut rows) {
             change = change.max(relax(contact, rows, movers, rules.dt));
