@@ -1,7 +1,7 @@
 //! What bodies of one kind share.
 
-use langevin_rigid::linalg::Mat6;
 use langevin_rigid::linalg::vector::{add, norm, sub};
+use langevin_rigid::linalg::{Mat6, rotate_back};
 use langevin_rigid::{Flow, Input, State, StepError, Stepper};
 
 use crate::material::{Material, MaterialError};
@@ -24,6 +24,9 @@ enum Fluids {
 
 /// A sleeping body wakes in a wind that pushes it with this share of its weight.
 const BLOWN: f64 = 0.1;
+
+/// Share of an energy that is rounding.
+const ROUNDING: f64 = 1e-14;
 
 impl Kind {
     /// Bodies in one fluid.
@@ -92,6 +95,26 @@ impl Kind {
                 immersion.inverse_total_mass(immersion.share(state, surface))
             }
             _ => *self.stepper().inverse_total_mass(),
+        }
+    }
+
+    /// Turns the momentum of a body back that moves as `free` but is at another pose, where that adds no energy. Else
+    /// velocity and spin turn with the body, which never does.
+    pub(crate) fn keep_momentum(&self, free: &State, state: &mut State) {
+        let Fluids::One(stepper) = &self.fluids else {
+            return;
+        };
+        let lost = sub(stepper.linear_impulse(free), stepper.linear_impulse(state));
+        let lost = rotate_back(state.orientation, lost);
+        let inverse = stepper.inverse_total_mass();
+        let change = |row: usize| (0..3).map(|k| inverse[row][k] * lost[k]).sum::<f64>();
+        let mut kept = *state;
+        for k in 0..3 {
+            kept.velocity[k] += change(k);
+            kept.angular_velocity[k] += change(3 + k);
+        }
+        if stepper.kinetic_energy(&kept) <= stepper.kinetic_energy(free) * (1.0 + ROUNDING) {
+            *state = kept;
         }
     }
 

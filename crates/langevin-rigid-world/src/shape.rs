@@ -7,7 +7,7 @@ use langevin_rigid::linalg::Vec3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 
-pub(crate) use hull::{Face, Hull, Scaled};
+pub(crate) use hull::{Face, Hull, OUTLINE, Scaled};
 
 /// The solid that touches others: convex hulls in the body frame.
 ///

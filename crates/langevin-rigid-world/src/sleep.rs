@@ -9,6 +9,8 @@ use langevin_rigid::linalg::{Quat, Vec3};
 
 /// How long a body stays near a pose before it sleeps (s).
 const DROWSY: f64 = 0.5;
+/// How long it waits for an overlap to be mended before it sleeps in it (s).
+const PATIENT: f64 = 5.0;
 /// How near, in its radii.
 const NEAR: f64 = 0.01;
 /// How far a body goes until it wakes those that sleep against it, in its radii.
@@ -59,6 +61,8 @@ pub(crate) struct Bed {
     pub(crate) against: Vec<u32>,
     /// Impulses of all contacts in a step (N s).
     pub(crate) pressed: f64,
+    /// Whether it is too far in one of them to be let be.
+    pub(crate) is_deep: bool,
 }
 
 impl Rest {
@@ -87,9 +91,9 @@ impl Rest {
         far
     }
 
-    /// Whether it is time to sleep.
-    pub(crate) fn is_drowsy(&self) -> bool {
-        self.still >= DROWSY
+    /// Whether it is time to sleep in this bed.
+    pub(crate) fn is_drowsy(&self, bed: &Bed) -> bool {
+        self.still >= if bed.is_deep { PATIENT } else { DROWSY }
     }
 
     /// Whether it has stayed near one pose for so long (s).
@@ -114,9 +118,12 @@ impl Rest {
     }
 }
 
-/// A speed (m/s) that disturbs the rest of a body of this radius (m): what it gains in falling by so much of it.
+/// A speed (m/s) that disturbs the rest of a body of this radius (m): what it gains in falling by so much of it, and
+/// without weight what takes it so far before it would fall asleep.
 pub(crate) fn disturbing(radius: f64, gravity: f64) -> f64 {
-    (2.0 * NEAR * gravity * radius).sqrt()
+    (2.0 * NEAR * gravity * radius)
+        .sqrt()
+        .max(NEAR * radius / DROWSY)
 }
 
 /// Speed of the fastest point of a body, at most (m/s).

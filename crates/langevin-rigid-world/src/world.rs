@@ -1,23 +1,25 @@
 //! Bodies, obstacles and wind, and the steps of all of them.
 
+mod impulses;
+mod near;
+mod overlap;
+mod rest;
+mod solve;
+
 use std::sync::Arc;
 
+use langevin_rigid::linalg::Vec3;
 use langevin_rigid::linalg::vector::norm;
-use langevin_rigid::linalg::{Vec3, quat_from_rotation_vector};
 use langevin_rigid::wind::Wind;
 use langevin_rigid::{Input, NoiseStream, State, StepError};
-use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
-use parry3d_f64::math::{Pose, Rotation, Vector};
+use parry3d_f64::math::Pose;
 use rayon::prelude::*;
 
-use crate::broad;
-use crate::contact::island::Islands;
-use crate::contact::narrow::{self, Placed};
-use crate::contact::solver::{self, Contact, InverseMass, Mover, Rules, Twist};
-use crate::contact::{Patch, Point};
+use self::impulses::Impulses;
+pub use self::overlap::Overlap;
 use crate::kind::Kind;
-use crate::obstacle::{Geometry, Obstacle, pose};
-use crate::sleep::{self, Bed, Rest};
+use crate::obstacle::{Obstacle, pose};
+use crate::sleep::Rest;
 use crate::water::WaterSurface;
 
 /// Bodies in a fluid that meet obstacles and each other.
@@ -57,8 +59,8 @@ pub struct World {
     water: Option<WaterSurface>,
     obstacles: Vec<Obstacle>,
     members: Vec<Member>,
-    /// Impulses of the last step, in the order of their keys.
-    held: Vec<Held>,
+    /// Of the last step.
+    impulses: Impulses,
 }
 
 #[derive(Debug, Clone)]
@@ -79,54 +81,6 @@ pub struct WorldError {
     pub error: StepError,
 }
 
-/// Two that are inside each other.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("body {body} is {:.3} mm inside {other}; place them apart", 1e3 * .depth)]
-pub struct Overlap {
-    /// Number of the body.
-    pub body: usize,
-    /// What it is in.
-    pub other: String,
-    /// How deep (m).
-    pub depth: f64,
-}
-
-/// Which hulls a patch is between: of an obstacle or a body, and of a body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Key {
-    obstacle: Option<u32>,
-    a: u32,
-    part_a: u32,
-    b: u32,
-    part_b: u32,
-}
-
-/// An impulse of the step before.
-#[derive(Debug, Clone, Copy)]
-struct Held {
-    key: Key,
-    /// Where it acted, in the frame of b (m).
-    at: Vector,
-    /// On b, world frame (N s).
-    impulse: Vector,
-    /// From a to b, world frame.
-    normal: Vector,
-}
-
-/// A patch between two parts.
-struct Met {
-    key: Key,
-    patch: Patch,
-    /// Gap that is kept (m).
-    skin: f64,
-}
-
-/// Gap that is kept between two bodies, in radii of the smaller one.
-const SKIN: f64 = 5e-4;
-
-/// Steps between two looks at whether the wind moves a sleeping body.
-const LOOKS: u64 = 16;
-
 impl World {
     /// An empty world with this gravity (m/s^2), which must be that of the steppers of its bodies.
     pub fn new(gravity: Vec3) -> Self {
@@ -138,7 +92,7 @@ impl World {
             water: None,
             obstacles: Vec::new(),
             members: Vec::new(),
-            held: Vec::new(),
+            impulses: Impulses::default(),
         }
     }
 
@@ -230,40 +184,6 @@ impl World {
         self.members[body].rest.wake();
     }
 
-    /// The deepest overlap of a body with anything, if there is one of more than a thousandth of its radius.
-    pub fn overlap(&self, body: usize) -> Option<Overlap> {
-        let members = &self.members;
-        let others = (0..members.len()).filter(|other| *other != body);
-        let pairs: Vec<(usize, usize)> = others
-            .map(|other| (other.min(body), other.max(body)))
-            .collect();
-        let mut met: Vec<Met> = pairs
-            .iter()
-            .flat_map(|pair| self.bodies_met(*pair, 0.0))
-            .collect();
-        met.extend(self.obstacles_met(body, 0.0));
-        let depth = |met: &Met| {
-            -met.patch
-                .points
-                .iter()
-                .map(|p| p.gap)
-                .fold(f64::INFINITY, f64::min)
-        };
-        let (deepest, met) = met
-            .iter()
-            .map(|met| (depth(met), met))
-            .max_by(|a, b| a.0.total_cmp(&b.0))?;
-        (deepest > 1e-3 * members[body].kind.shape().radius()).then(|| Overlap {
-            body,
-            other: match met.key.obstacle {
-                Some(number) => format!("obstacle {number}"),
-                None if met.key.a as usize == body => format!("body {}", met.key.b),
-                None => format!("body {}", met.key.a),
-            },
-            depth: deepest,
-        })
-    }
-
     /// Advances all bodies that are awake by `dt` (s).
     ///
     /// # Errors
@@ -277,203 +197,10 @@ impl World {
             }
         };
         let free = self.free_step(dt)?;
-        let contacts = self.contacts(&met);
-        let solved = self.solve(&free, contacts, dt);
+        let solved = self.solve(free, &met, dt);
         self.settle(solved, dt);
         self.time += dt;
         Ok(())
-    }
-
-    /// How far a body may go in a step (m).
-    fn stride(&self, member: &Member, dt: f64) -> f64 {
-        if member.rest.is_asleep() {
-            return 0.0;
-        }
-        1.5 * sleep::fastest(&member.state, member.kind.shape().radius()) * dt
-            + 2.0 * self.gravity * dt * dt
-    }
-
-    /// All that is close, in the order of its keys.
-    fn meet(&self, dt: f64) -> Vec<Met> {
-        let boxes: Vec<Aabb> = self
-            .members
-            .iter()
-            .map(|member| {
-                let margin = self.stride(member, dt) + SKIN * member.kind.shape().radius();
-                bounds(member).loosened(margin)
-            })
-            .collect();
-        let awake = |body: usize| !self.is_asleep(body);
-        let pairs: Vec<(usize, usize)> = broad::pairs(&boxes)
-            .into_iter()
-            .filter(|(a, b)| awake(*a) || awake(*b))
-            .collect();
-        let reach = |body: usize| self.stride(&self.members[body], dt);
-        let mut met: Vec<Met> = (0..self.members.len())
-            .into_par_iter()
-            .filter(|body| awake(*body))
-            .flat_map_iter(|body| self.obstacles_met(body, reach(body)))
-            .collect();
-        met.par_extend(
-            pairs
-                .into_par_iter()
-                .flat_map_iter(|pair| self.bodies_met(pair, reach(pair.0) + reach(pair.1))),
-        );
-        met
-    }
-
-    fn bodies_met(&self, (a, b): (usize, usize), reach: f64) -> Vec<Met> {
-        let (first, second) = (&self.members[a], &self.members[b]);
-        let skin = SKIN
-            * first
-                .kind
-                .shape()
-                .radius()
-                .min(second.kind.shape().radius());
-        let mut met = Vec::new();
-        for (part_a, hull_a) in parts(first) {
-            for (part_b, hull_b) in parts(second) {
-                let key = Key {
-                    obstacle: None,
-                    a: a as u32,
-                    part_a,
-                    b: b as u32,
-                    part_b,
-                };
-                let patch = narrow::hulls(hull_a, hull_b, reach + skin, self.normal_before(key));
-                met.extend(patch.map(|patch| Met { key, patch, skin }));
-            }
-        }
-        met
-    }
-
-    fn obstacles_met(&self, body: usize, reach: f64) -> Vec<Met> {
-        let member = &self.members[body];
-        let skin = SKIN * member.kind.shape().radius();
-        let reach = reach + skin;
-        let around = bounds(member).loosened(reach);
-        let mut met = Vec::new();
-        for (number, obstacle) in self.obstacles.iter().enumerate() {
-            if obstacle
-                .bounds()
-                .is_some_and(|bounds| !bounds_meet(&bounds, &around))
-            {
-                continue;
-            }
-            for (part_b, hull) in parts(member) {
-                let key = |part_a: u32| Key {
-                    obstacle: Some(number as u32),
-                    a: 0,
-                    part_a,
-                    b: body as u32,
-                    part_b,
-                };
-                let mut add = |key: Key, patch: Option<Patch>| {
-                    met.extend(patch.map(|patch| Met { key, patch, skin }));
-                };
-                match &obstacle.geometry {
-                    Geometry::HalfSpace { normal, offset } => {
-                        add(key(0), narrow::half_space(*normal, *offset, hull, reach));
-                    }
-                    Geometry::Shape { shape, pose, .. } => {
-                        for (part, of_obstacle) in shape.hulls().iter().enumerate() {
-                            let placed = Placed {
-                                hull: of_obstacle,
-                                pose: *pose,
-                                size: shape.radius(),
-                            };
-                            let key = key(part as u32);
-                            let before = self.normal_before(key);
-                            add(key, narrow::hulls(placed, hull, reach, before));
-                        }
-                    }
-                    Geometry::Mesh(mesh) => {
-                        let mut near: Vec<u32> = mesh.tree.intersect_aabb(&around).collect();
-                        near.sort_unstable();
-                        for index in near {
-                            let triangle = &mesh.triangles[index as usize];
-                            add(key(index), narrow::triangle(triangle, hull, reach));
-                        }
-                    }
-                }
-            }
-        }
-        met
-    }
-
-    /// Wakes what sleeps and is hit; whether there was any.
-    fn wake_the_hit(&mut self, met: &[Met], dt: f64) -> bool {
-        let mut hit = Vec::new();
-        for met in met.iter().filter(|met| met.key.obstacle.is_none()) {
-            let (a, b) = (met.key.a as usize, met.key.b as usize);
-            let sleeper = match (self.is_asleep(a), self.is_asleep(b)) {
-                (true, false) => a,
-                (false, true) => b,
-                _ => continue,
-            };
-            let kind = &self.members[sleeper].kind;
-            let disturbing = sleep::disturbing(kind.shape().radius(), self.gravity);
-            let pressed = self.members[sleeper].rest.pressed();
-            let fast = |point: &Point| {
-                let velocity = |body: usize, at: Vector| velocity_at(&self.members[body].state, at);
-                let approach = velocity(a, point.on_a) - velocity(b, point.on_b);
-                let push = self.impulse_at(met.key, point);
-                // Hit, or pressed upon by more than it carried and its own weight.
-                (point.gap <= met.skin && approach.dot(met.patch.normal) > disturbing)
-                    || push > pressed + self.gravity * dt / kind.lightness()
-            };
-            if met.patch.points.iter().any(fast) {
-                hit.push(sleeper);
-            }
-        }
-        for &body in &hit {
-            self.wake(body);
-        }
-        !hit.is_empty()
-    }
-
-    /// Wakes what sleeps in wind that may move it. Looks at each body now and then.
-    fn wake_the_blown(&mut self) {
-        if self.wind.is_empty() && self.stream == [0.0; 3] {
-            return;
-        }
-        let (wind, stream) = (&self.wind, self.stream);
-        for (body, member) in self.members.iter_mut().enumerate() {
-            let due = (member.state.step + body as u64).is_multiple_of(LOOKS);
-            if due && member.rest.is_asleep() {
-                let flow = wind.flow(member.state.position, member.state.time, stream);
-                if member.kind.is_blown(&member.state, flow) {
-                    member.rest.wake();
-                }
-            }
-        }
-    }
-
-    /// The normal at which two touched in the last step.
-    fn normal_before(&self, key: Key) -> Option<Vector> {
-        let from = self.held.partition_point(|held| held.key < key);
-        let held = self.held.get(from).filter(|held| held.key == key);
-        held.map(|held| held.normal)
-    }
-
-    /// The impulse of the last step at a point (N s), without its direction.
-    fn impulse_at(&self, key: Key, point: &Point) -> f64 {
-        let member = &self.members[key.b as usize];
-        let at = placed(&member.state).inverse_transform_point(point.on_b);
-        self.held_at(key, at, member.kind.shape().radius()).length()
-    }
-
-    /// The impulse of the last step near a point of b, in its frame.
-    fn held_at(&self, key: Key, at: Vector, radius: f64) -> Vector {
-        let from = self.held.partition_point(|held| held.key < key);
-        let mut best = (0.05 * radius, Vector::ZERO);
-        for held in self.held[from..].iter().take_while(|held| held.key == key) {
-            let away = held.at.distance(at);
-            if away < best.0 {
-                best = (away, held.impulse);
-            }
-        }
-        best.1
     }
 
     /// The states of all after a step without contact.
@@ -505,234 +232,8 @@ impl World {
             .collect();
         results.into_iter().collect()
     }
-
-    /// The contacts of what is close; movers are numbered as bodies.
-    fn contacts(&self, met: &[Met]) -> Vec<(Key, Vector, Contact)> {
-        let mut contacts = Vec::new();
-        for Met { key, patch, skin } in met {
-            let b = key.b as usize;
-            let second = &self.members[b];
-            let moves = |body: usize| (!self.is_asleep(body)).then_some(body);
-            let (a, material) = match key.obstacle {
-                Some(number) => (None, self.obstacles[number as usize].material),
-                None => (
-                    Some(key.a as usize),
-                    self.members[key.a as usize].kind.material(),
-                ),
-            };
-            let material = material.with(second.kind.material());
-            let frame = placed(&second.state);
-            let centre_a = a.map_or(Vector::ZERO, |a| self.members[a].state.position.into());
-            let radius = second.kind.shape().radius();
-            for point in &patch.points {
-                let at = frame.inverse_transform_point(point.on_b);
-                contacts.push((
-                    *key,
-                    at,
-                    Contact {
-                        a: a.and_then(moves),
-                        b: moves(b),
-                        normal: patch.normal,
-                        arm_a: point.on_a - centre_a,
-                        arm_b: point.on_b - frame.translation,
-                        gap: point.gap - skin,
-                        skin: *skin,
-                        friction: material.friction,
-                        restitution: material.restitution,
-                        impulse: self.held_at(*key, at, radius),
-                    },
-                ));
-            }
-        }
-        contacts
-    }
-
-    /// Solves island by island, on all cores.
-    fn solve(&self, free: &[State], contacts: Vec<(Key, Vector, Contact)>, dt: f64) -> Solved {
-        let mut islands = Islands::new(self.members.len());
-        for (_, _, contact) in &contacts {
-            if let (Some(a), Some(b)) = (contact.a, contact.b) {
-                islands.join(a, b);
-            }
-        }
-        let mut solved = Solved {
-            states: free.to_vec(),
-            island: (0..self.members.len())
-                .map(|body| islands.root(body))
-                .collect(),
-            held: Vec::with_capacity(contacts.len()),
-        };
-        let mut of_island: Vec<Vec<usize>> = vec![Vec::new(); self.members.len()];
-        for (number, (_, _, contact)) in contacts.iter().enumerate() {
-            if let Some(mover) = contact.b.or(contact.a) {
-                of_island[solved.island[mover]].push(number);
-            }
-        }
-        of_island.retain(|numbers| !numbers.is_empty());
-        let done: Vec<Vec<(usize, Mover)>>;
-        let mut of_island: Vec<Vec<(Key, Vector, Contact)>> = of_island
-            .into_iter()
-            .map(|numbers| numbers.into_iter().map(|i| contacts[i].clone()).collect())
-            .collect();
-        done = of_island
-            .par_iter_mut()
-            .map(|contacts| self.solve_island(free, contacts, dt))
-            .collect();
-        for (body, mover) in done.into_iter().flatten() {
-            moved(&mut solved.states[body], &self.members[body].state, &mover);
-        }
-        for (key, at, contact) in of_island.into_iter().flatten() {
-            if contact.impulse != Vector::ZERO {
-                solved.held.push(Held {
-                    key,
-                    at,
-                    impulse: contact.impulse,
-                    normal: contact.normal,
-                });
-            }
-        }
-        solved.held.sort_by(|a, b| a.key.cmp(&b.key));
-        solved
-    }
-
-    fn solve_island(
-        &self,
-        free: &[State],
-        contacts: &mut [(Key, Vector, Contact)],
-        dt: f64,
-    ) -> Vec<(usize, Mover)> {
-        let mut bodies: Vec<usize> = contacts
-            .iter()
-            .flat_map(|(_, _, contact)| [contact.a, contact.b])
-            .flatten()
-            .collect();
-        bodies.sort_unstable();
-        bodies.dedup();
-        let mut movers: Vec<Mover> = bodies
-            .iter()
-            .map(|&body| {
-                let state = &free[body];
-                Mover {
-                    inverse_mass: InverseMass::new(
-                        &self.members[body]
-                            .kind
-                            .inverse_mass(state, self.water.as_ref()),
-                        placed(state).rotation,
-                    ),
-                    velocity: Twist {
-                        linear: state.world_velocity().into(),
-                        angular: state.world_angular_velocity().into(),
-                    },
-                    way: None,
-                }
-            })
-            .collect();
-        let place = |body: Option<usize>| body.and_then(|body| bodies.binary_search(&body).ok());
-        let mut numbered: Vec<Contact> = contacts
-            .iter()
-            .map(|(_, _, contact)| Contact {
-                a: place(contact.a),
-                b: place(contact.b),
-                ..contact.clone()
-            })
-            .collect();
-        let fall = self.gravity * dt;
-        let rules = Rules {
-            dt,
-            tolerance: 0.001 * fall,
-            bounce: 4.0 * fall,
-        };
-        solver::solve(&mut movers, &mut numbered, &rules);
-        for ((_, _, contact), solved) in contacts.iter_mut().zip(numbered) {
-            contact.impulse = solved.impulse;
-        }
-        bodies.into_iter().zip(movers).collect()
-    }
-
-    /// Takes over what was solved; puts to sleep what has come to rest, and wakes what is stirred.
-    fn settle(&mut self, solved: Solved, dt: f64) {
-        let mut stirred = vec![false; self.members.len()];
-        for (body, (member, state)) in self.members.iter_mut().zip(solved.states).enumerate() {
-            member.state = state;
-            if !member.rest.is_asleep() {
-                stirred[body] = member.rest.stirs(&state, member.kind.shape().radius(), dt);
-            }
-        }
-        self.held = solved.held;
-        let mut touching = vec![None; self.members.len()];
-        for Held { key, impulse, .. } in &self.held {
-            let mut touch = |body: u32, other: Option<u32>| {
-                let bed: &mut Bed = touching[body as usize].get_or_insert_default();
-                bed.against.extend(other);
-                bed.pressed += impulse.length();
-            };
-            touch(key.b, key.obstacle.is_none().then_some(key.a));
-            if key.obstacle.is_none() {
-                touch(key.a, Some(key.b));
-            }
-        }
-        for (member, touching) in self.members.iter_mut().zip(touching) {
-            if member.rest.is_asleep() {
-                if member.rest.is_stirred_by(&stirred) {
-                    member.rest.wake();
-                }
-            } else if let Some(touching) = touching.filter(|_| member.rest.is_drowsy()) {
-                member.rest.sleep(touching);
-                (member.state.velocity, member.state.angular_velocity) = ([0.0; 3], [0.0; 3]);
-            }
-        }
-    }
-}
-
-/// What a step makes of all bodies.
-struct Solved {
-    states: Vec<State>,
-    /// The island of each body.
-    island: Vec<usize>,
-    held: Vec<Held>,
-}
-
-/// What contacts make of a state after a free step from `before`. Spin and velocity turn with the body, so that where it
-/// goes costs no energy.
-fn moved(state: &mut State, before: &State, mover: &Mover) {
-    let velocity = mover.velocity;
-    state.set_world_velocities(velocity.linear.to_array(), velocity.angular.to_array());
-    if let Some(way) = mover.way {
-        state.position = (Vector::from(before.position) + way.linear).to_array();
-        let [x, y, z, w] = quat_from_rotation_vector(way.angular.to_array());
-        let turned = Rotation::from_xyzw(x, y, z, w) * placed(before).rotation;
-        state.orientation = turned.normalize().to_array();
-    }
 }
 
 fn placed(state: &State) -> Pose {
     pose(state.position, state.orientation)
-}
-
-fn bounds(member: &Member) -> Aabb {
-    let pose = placed(&member.state);
-    let points = member
-        .kind
-        .shape()
-        .hulls()
-        .iter()
-        .flat_map(|hull| &hull.points);
-    Aabb::from_points(points.map(|p| pose * *p))
-}
-
-fn bounds_meet(a: &Aabb, b: &Aabb) -> bool {
-    a.mins.cmple(b.maxs).all() && b.mins.cmple(a.maxs).all()
-}
-
-/// The hulls of a body, numbered.
-fn parts(member: &Member) -> impl Iterator<Item = (u32, Placed<'_>)> {
-    let (pose, size) = (placed(&member.state), member.kind.shape().radius());
-    let hulls = member.kind.shape().hulls().iter().enumerate();
-    hulls.map(move |(part, hull)| (part as u32, Placed { hull, pose, size }))
-}
-
-/// Velocity of a point of a body, both in the world frame.
-fn velocity_at(state: &State, at: Vector) -> Vector {
-    let arm = at - Vector::from(state.position);
-    Vector::from(state.world_velocity()) + Vector::from(state.world_angular_velocity()).cross(arm)
 }

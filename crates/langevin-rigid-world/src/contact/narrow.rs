@@ -6,10 +6,10 @@ use parry3d_f64::query::details::contact_support_map_support_map_with_params;
 use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
 use parry3d_f64::shape::SupportMap;
 
-use super::overlap::overlap;
+use super::overlap::{Polygon, overlap};
 use super::{MOST_POINTS, Patch, Point};
 use crate::obstacle::Triangle;
-use crate::shape::{Face, Hull, Scaled};
+use crate::shape::{Face, Hull, OUTLINE, Scaled};
 
 /// Points that hold two faces on each other.
 const BETWEEN_FACES: usize = 4;
@@ -39,7 +39,7 @@ pub(crate) fn hulls(
     reach: f64,
     before: Option<Vector>,
 ) -> Option<Patch> {
-    let found = nearest(a, b, reach)?;
+    let found = nearest(a, b, reach, before)?;
     let nearest = refined(a, b, found, before);
     Some(patch(a, b, nearest, reach))
 }
@@ -87,7 +87,7 @@ pub(crate) fn triangle(triangle: &Triangle, b: Placed<'_>, reach: f64) -> Option
         pose: Pose::IDENTITY,
         size: b.size,
     };
-    let mut nearest = nearest(a, b, reach)?;
+    let mut nearest = nearest(a, b, reach, Some(triangle.normal))?;
     // From behind nothing is held.
     if nearest.normal.dot(triangle.normal) <= 1e-3 {
         return None;
@@ -141,7 +141,8 @@ struct Nearest {
     gap: f64,
 }
 
-fn nearest(a: Placed<'_>, b: Placed<'_>, reach: f64) -> Option<Nearest> {
+/// `guess` is a direction near the normal.
+fn nearest(a: Placed<'_>, b: Placed<'_>, reach: f64, guess: Option<Vector>) -> Option<Nearest> {
     // In units of the smaller one, as the tolerances of the library are absolute.
     let unit = a.size.min(b.size);
     let factor = 1.0 / unit;
@@ -161,7 +162,7 @@ fn nearest(a: Placed<'_>, b: Placed<'_>, reach: f64) -> Option<Nearest> {
         &of_b,
         reach * factor,
         &mut VoronoiSimplex::new(),
-        None,
+        guess.map(|normal| a.pose.rotation.inverse() * normal),
     );
     let GJKResult::ClosestPoints(p, q, direction) = found else {
         return None;
@@ -204,7 +205,7 @@ fn patch(a: Placed<'_>, b: Placed<'_>, nearest: Nearest, reach: f64) -> Patch {
         on_b,
         gap,
     } = nearest;
-    let mut points = Vec::new();
+    let mut points: ArrayVec<Point, { 2 * OUTLINE + 1 }> = ArrayVec::new();
     let face_a = a.hull.face_towards(a.pose.rotation.inverse() * normal);
     let face_b = b.hull.face_towards(b.pose.rotation.inverse() * -normal);
     let (up_a, up_b) = (
@@ -214,7 +215,7 @@ fn patch(a: Placed<'_>, b: Placed<'_>, nearest: Nearest, reach: f64) -> Patch {
     if up_a.dot(normal) > ALONG && up_b.dot(normal) < -ALONG {
         let (across, along) = normal.any_orthonormal_pair();
         let flat = |p: Vector| Vec2::new((p - on_a).dot(across), (p - on_a).dot(along));
-        let outline = |face: &Face, pose: &Pose| -> Vec<Vec2> {
+        let outline = |face: &Face, pose: &Pose| -> Polygon {
             face.outline.iter().map(|p| flat(*pose * *p)).collect()
         };
         let of_a = outline(face_a, &a.pose);
@@ -308,8 +309,9 @@ mod tests {
             for point in &patch.points {
                 assert!((point.gap - 1e-4).abs() < 1e-12);
             }
-            let across = |a: &Point, b: &Point| a.on_b.distance(b.on_b);
-            let longest = across(&patch.points[0], &patch.points[1]);
+            let first = patch.points[0].on_b;
+            let away = patch.points.iter().map(|point| point.on_b.distance(first));
+            let longest = away.fold(0.0, f64::max);
             assert!(longest > 0.15, "{longest}");
         }
     }

@@ -7,7 +7,7 @@ use parry3d_f64::shape::{ConvexPolyhedron, SupportMap};
 use super::ShapeError;
 
 /// Corners that stand for the outline of a face where it is cut with another's: a coin needs no more.
-const OUTLINE: usize = 12;
+pub(crate) const OUTLINE: usize = 12;
 
 /// A convex polyhedron.
 #[derive(Debug, Clone)]
