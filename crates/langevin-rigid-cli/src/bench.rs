@@ -268,7 +268,11 @@ impl Conditions {
                 seed: None,
             };
             let within = None;
-            scene.wind.push(WindPart { field, within });
+            scene.wind.push(WindPart {
+                field,
+                within,
+                bodies: Vec::new(),
+            });
         }
         scene
     }

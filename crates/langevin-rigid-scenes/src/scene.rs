@@ -47,7 +47,7 @@ pub use registry::{BUILT_IN, BuiltIn, FindError, find};
 pub use run::StepsError;
 use seed::Seed;
 pub use steering::Steering;
-pub use wind::{SceneField, SceneWindError, WindPart};
+pub use wind::{OWN, SceneField, SceneWindError, WindPart};
 pub use world::{Contact, ContactShape, ObstacleGeometry, SceneObstacle, SceneWater, SceneWaves};
 
 /// A scene, checked and complete.
@@ -209,6 +209,12 @@ impl Scene {
         let water = raw.water.as_ref();
         let water = water.map(|raw| world::water(&doc, raw, settings.gravity));
         let crowd = raw.crowd.as_ref().map(|raw| crowd::resolve(&doc, raw));
+        let crowd = crowd.transpose()?;
+        let kinds = crowd.iter().flat_map(|crowd| &crowd.kinds);
+        let names: Vec<String> = std::iter::once(OWN.to_owned())
+            .chain(kinds.map(CrowdKind::name))
+            .collect();
+        wind::check_bodies(&doc, &raw.wind, &names)?;
         if stop.time.is_none()
             && (contact.is_some() || water.is_some() || crowd.is_some() || !raw.obstacle.is_empty())
         {
@@ -245,7 +251,7 @@ impl Scene {
             contact,
             obstacles: world::obstacles(&doc, &raw.obstacle, material)?,
             water: water.transpose()?,
-            crowd: crowd.transpose()?,
+            crowd,
             stream: run::stream(&doc, run)?,
             steering: steering::resolve(&doc, raw.steering.as_ref())?,
             direct: direct::resolve(&doc, raw.direct.as_ref(), &surroundings)?,
@@ -257,7 +263,15 @@ impl Scene {
     /// # Errors
     /// [`SceneWindError`]; for a scene that was read only where the file of a table is none.
     pub fn make_wind(&self) -> Result<Wind, SceneWindError> {
-        wind::wind(&self.wind, self.seed)
+        self.make_wind_for(OWN)
+    }
+
+    /// The wind that bodies of this name feel: [`OWN`], or the name of a scene of the crowd.
+    ///
+    /// # Errors
+    /// Those of [`Scene::make_wind`].
+    pub fn make_wind_for(&self, name: &str) -> Result<Wind, SceneWindError> {
+        wind::wind(&self.wind, name, self.seed)
     }
 
     /// Whether bodies meet more than their fluid: whether they touch, float or are many. The ground does not end a run

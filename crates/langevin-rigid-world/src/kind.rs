@@ -2,6 +2,7 @@
 
 use langevin_rigid::linalg::vector::{add, norm, sub};
 use langevin_rigid::linalg::{Mat6, rotate_back};
+use langevin_rigid::wind::Wind;
 use langevin_rigid::{Flow, Input, State, StepError, Stepper};
 
 use crate::material::{Material, MaterialError};
@@ -14,6 +15,8 @@ pub struct Kind {
     fluids: Fluids,
     shape: Shape,
     material: Material,
+    /// In place of the world's.
+    wind: Option<Wind>,
 }
 
 #[derive(Debug, Clone)]
@@ -54,7 +57,22 @@ impl Kind {
             fluids,
             shape,
             material: material.checked()?,
+            wind: None,
         })
+    }
+
+    /// The same in a wind of their own, in place of that of the [world](crate::World::set_wind).
+    #[must_use]
+    pub fn in_wind(self, wind: Wind) -> Self {
+        Self {
+            wind: Some(wind),
+            ..self
+        }
+    }
+
+    /// The wind of their own.
+    pub(crate) fn wind(&self) -> Option<&Wind> {
+        self.wind.as_ref()
     }
 
     /// How they move in the fluid; the upper one, of two.

@@ -218,8 +218,9 @@ impl World {
                     return Ok(state);
                 }
                 let mut input = Input::with_noise(member.noise);
-                if !self.wind.is_empty() {
-                    input.flow = self.wind.flow(state.position, state.time, self.stream);
+                let wind = member.kind.wind().unwrap_or(&self.wind);
+                if !wind.is_empty() {
+                    input.flow = wind.flow(state.position, state.time, self.stream);
                 }
                 match member
                     .kind

@@ -1,5 +1,7 @@
 //! Many bodies in one scene: how many, where and when they are let go, of which kinds and sizes.
 
+use std::path::Path;
+
 use langevin_rigid::linalg::Vec3;
 use serde_spanned::Spanned;
 
@@ -36,6 +38,17 @@ pub struct CrowdKind {
     pub scene: String,
     /// How many there are of it for each of the scene's own body.
     pub share: f64,
+}
+
+impl CrowdKind {
+    /// Name of its scene: that of a built-in one, or the file's without ending.
+    pub fn name(&self) -> String {
+        let stem = Path::new(&self.scene).file_stem();
+        stem.map_or_else(
+            || self.scene.clone(),
+            |stem| stem.to_string_lossy().into_owned(),
+        )
+    }
 }
 
 pub(super) fn resolve(doc: &Document, raw: &Spanned<RawCrowd>) -> Result<Crowd, SceneError> {

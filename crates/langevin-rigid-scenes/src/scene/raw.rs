@@ -240,6 +240,7 @@ pub(super) struct RawWind {
     pub(super) speed: Given<f64>,
     pub(super) diameter: Given<f64>,
     pub(super) file: Given<String>,
+    pub(super) bodies: Given<Vec<String>>,
     pub(super) within: Option<Spanned<RawWithin>>,
 }
 

@@ -27,7 +27,13 @@ pub struct WindPart {
     pub field: SceneField,
     /// Where; everywhere if none.
     pub within: Option<Region>,
+    /// Which bodies feel it, in a [crowd](super::Crowd) of several kinds: [`OWN`], or those of the scenes of these names; all
+    /// if none.
+    pub bodies: Vec<String>,
 }
+
+/// The name by which a wind knows the scene's own bodies.
+pub const OWN: &str = "own";
 
 /// A field as a scene has it.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,10 +86,11 @@ const FIELDS: [(&str, &[&str]); 6] = [
     ("table", &["file"]),
 ];
 
-/// The wind that `parts` make in a run of this seed.
-pub(super) fn wind(parts: &[WindPart], seed: u64) -> Result<Wind, SceneWindError> {
+/// The wind that `parts` make in a run of this seed, for bodies of this name.
+pub(super) fn wind(parts: &[WindPart], name: &str, seed: u64) -> Result<Wind, SceneWindError> {
     let mut wind = Wind::default();
-    for (number, part) in parts.iter().enumerate() {
+    let felt = |part: &WindPart| part.bodies.is_empty() || part.bodies.iter().any(|of| of == name);
+    for (number, part) in parts.iter().enumerate().filter(|(_, part)| felt(part)) {
         let field = match &part.field {
             SceneField::Table { path } => read_wind_table(path)?.into(),
             field => closed_form(field, seed.wrapping_add(number as u64))?,
@@ -116,7 +123,7 @@ pub(super) fn at_release(parts: &[WindPart], seed: u64, position: [f64; 3]) -> [
     let closed = parts.iter().filter(|part| !part.is_table());
     let closed: Vec<WindPart> = closed.cloned().collect();
     // A wind that cannot be made is told elsewhere.
-    let wind = wind(&closed, seed).unwrap_or_default();
+    let wind = wind(&closed, OWN, seed).unwrap_or_default();
     wind.flow(position, 0.0, [0.0; 3]).velocity
 }
 
@@ -124,6 +131,24 @@ impl WindPart {
     fn is_table(&self) -> bool {
         matches!(self.field, SceneField::Table { .. })
     }
+}
+
+/// Refuses winds for bodies that there are not.
+pub(super) fn check_bodies(
+    doc: &Document,
+    raw: &[Spanned<RawWind>],
+    names: &[String],
+) -> Result<(), SceneError> {
+    for bodies in raw.iter().filter_map(|raw| raw.get_ref().bodies.as_ref()) {
+        if let Some(unknown) = bodies.get_ref().iter().find(|name| !names.contains(name)) {
+            let message = format!(
+                "`bodies` of a wind: there are none of `{unknown}`; this scene has `{}`",
+                names.join("`, `")
+            );
+            return Err(doc.error(bodies.span(), message));
+        }
+    }
+    Ok(())
 }
 
 /// `ground` is that of the run, `stream` the velocity of the fluid (m/s).
@@ -217,7 +242,12 @@ fn part(doc: &Document, raw: &Spanned<RawWind>, ground: f64) -> Result<WindPart,
     };
     let within = given.within.as_ref();
     let within = within.map(|raw| region(doc, raw)).transpose()?;
-    Ok(WindPart { field, within })
+    let bodies = given.bodies.as_ref().map(|bodies| bodies.get_ref().clone());
+    Ok(WindPart {
+        field,
+        within,
+        bodies: bodies.unwrap_or_default(),
+    })
 }
 
 fn profile(doc: &Document, raw: &Spanned<RawWind>) -> Result<Profile, SceneError> {
@@ -434,7 +464,18 @@ pub(super) fn write(part: &WindPart) -> Result<Spanned<RawWind>, WriteSceneError
         };
         Spanned::new(0..0, raw)
     });
-    Ok(Spanned::new(0..0, RawWind { within, ..raw }))
+    let bodies = match part.bodies.is_empty() {
+        true => None,
+        false => given(part.bodies.clone()),
+    };
+    Ok(Spanned::new(
+        0..0,
+        RawWind {
+            bodies,
+            within,
+            ..raw
+        },
+    ))
 }
 
 #[cfg(test)]
@@ -484,6 +525,31 @@ mod tests {
         field = "table"
         file = "room.npz"
     "#;
+
+    #[test]
+    fn a_wind_may_be_for_some_bodies() {
+        let text = |bodies: &str| {
+            format!(
+                "fluid.preset = \"air\"\n\
+                 run = {{ time_step = 0.01, duration = 1.0, ground = -3.0 }}\n\
+                 body = {{ shape = \"box\", size = [0.1, 0.01, 0.1], density = 500.0 }}\n\
+                 crowd = {{ count = 4, kinds = [{{ scene = \"coin\" }}] }}\n\
+                 [[wind]]\nfield = \"uniform\"\nvelocity = [1.0, 0.0, 0.0]\nbodies = {bodies}\n"
+            )
+        };
+        let parse = |bodies: &str| Scene::parse("crowd", "crowd.toml", &text(bodies));
+        let coins = parse("[\"coin\"]").unwrap();
+        assert!(coins.make_wind().unwrap().is_empty());
+        assert!(!coins.make_wind_for("coin").unwrap().is_empty());
+        assert!(!parse("[\"own\"]").unwrap().make_wind().unwrap().is_empty());
+        let again = Scene::parse("crowd", "", &coins.to_toml().unwrap()).unwrap();
+        assert_eq!(again, coins);
+        let error = parse("[\"leaf\"]").unwrap_err();
+        assert!(
+            error.message.contains("this scene has `own`, `coin`"),
+            "{error}"
+        );
+    }
 
     #[test]
     fn every_field_is_read_and_written_as_it_was() {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use langevin_rigid::linalg::vector::{add, dot};
 use langevin_rigid::linalg::{Quat, Vec3, rotate};
+use langevin_rigid::wind::Wind;
 use langevin_rigid::{Bake, SetupError};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::mesh::{ReadError, read_mesh};
@@ -15,7 +16,7 @@ use langevin_rigid_world::{
 
 use crate::baking::{Baked, SceneBakeError, bake_scene, settings, stepper};
 use crate::scene::{
-    Contact, ContactShape, FindError, ObstacleGeometry, Scene, SceneObstacle, SceneWater,
+    Contact, ContactShape, FindError, OWN, ObstacleGeometry, Scene, SceneObstacle, SceneWater,
     SceneWindError, find,
 };
 
@@ -125,8 +126,10 @@ impl Surroundings {
             names: Vec::new(),
             kinds: Vec::new(),
         };
-        let wind = scene.make_wind()?;
-        surroundings.world.set_wind(wind, scene.fluid.velocity);
+        // Each kind brings its wind.
+        surroundings
+            .world
+            .set_wind(Wind::default(), scene.fluid.velocity);
         if let Some(water) = &scene.water {
             let surface = surface(water, scene);
             let surface = surface.map_err(|error| SurroundingsError::Water { error })?;
@@ -175,7 +178,8 @@ impl Surroundings {
             body: baked.bake.body.scaled(scale),
             ..baked.bake.clone()
         };
-        let made = self.make_kind(&scene.name, &bake, shape.scaled(scale))?;
+        let wind = if number == 0 { OWN } else { &scene.name };
+        let made = self.make_kind(&scene.name, wind, &bake, shape.scaled(scale))?;
         Ok(Arc::new(made))
     }
 
@@ -286,7 +290,13 @@ impl Surroundings {
             scene: scene.name.clone(),
             error,
         })?;
-        let kind = Arc::new(self.make_kind(&scene.name, &baked.bake, shape.clone())?);
+        let wind = if self.kinds.is_empty() {
+            OWN
+        } else {
+            &scene.name
+        };
+        let kind = self.make_kind(&scene.name, wind, &baked.bake, shape.clone())?;
+        let kind = Arc::new(kind);
         self.kinds.push(CrowdBody {
             scene,
             baked,
@@ -296,15 +306,23 @@ impl Surroundings {
         Ok(())
     }
 
-    fn make_kind(&self, name: &str, bake: &Bake, shape: Shape) -> Result<Kind, SurroundingsError> {
+    /// `wind` is the name by which the winds know it.
+    fn make_kind(
+        &self,
+        name: &str,
+        wind: &str,
+        bake: &Bake,
+        shape: Shape,
+    ) -> Result<Kind, SurroundingsError> {
         let scene = &self.scene;
+        let wind = scene.make_wind_for(wind)?;
         let material = self.contact().material;
         let Some(water) = &scene.water else {
             let stepper = stepper(scene, bake).map_err(|error| SurroundingsError::Setup {
                 scene: name.to_owned(),
                 error,
             })?;
-            return Ok(Kind::new(stepper, shape, material)?);
+            return Ok(Kind::new(stepper, shape, material)?.in_wind(wind));
         };
         let history = bake.history.as_ref();
         let (air, water) = ((&scene.fluid, history), (&water.fluid, history));
@@ -313,7 +331,7 @@ impl Surroundings {
             scene: name.to_owned(),
             error,
         })?;
-        Ok(Kind::between(immersion, shape, material)?)
+        Ok(Kind::between(immersion, shape, material)?.in_wind(wind))
     }
 }
 

@@ -53,13 +53,12 @@ impl World {
 
     /// Wakes what sleeps in wind that may move it. Looks at each body now and then.
     pub(super) fn wake_the_blown(&mut self) {
-        if self.wind.is_empty() && self.stream == [0.0; 3] {
-            return;
-        }
-        let (wind, stream) = (&self.wind, self.stream);
+        let (of_all, stream) = (&self.wind, self.stream);
         for (body, member) in self.members.iter_mut().enumerate() {
             let due = (member.state.step + body as u64).is_multiple_of(LOOKS);
-            if due && member.rest.is_asleep() {
+            let wind = member.kind.wind().unwrap_or(of_all);
+            let blows = !wind.is_empty() || stream != [0.0; 3];
+            if due && blows && member.rest.is_asleep() {
                 let flow = wind.flow(member.state.position, member.state.time, stream);
                 if member.kind.is_blown(&member.state, flow) {
                     member.rest.wake();
