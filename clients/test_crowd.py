@@ -154,3 +154,9 @@ def test_usd_hides_a_body_until_it_is_let_go(crowd, bodies):
         assert prim.ComputeVisibility(stage.GetEndTimeCode()) == "inherited"
         if start > 1:
             assert prim.ComputeVisibility(0) == "invisible"
+
+
+def test_export_makes_the_same_files_again(crowd, command, tmp_path):
+    command("export", crowd, "--format", "glb,usd", "--fps", FPS, "--out", tmp_path)
+    for name in ("trajectory.glb", "trajectory.usda"):
+        assert (tmp_path / name).read_bytes() == (crowd / name).read_bytes()

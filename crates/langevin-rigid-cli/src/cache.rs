@@ -23,7 +23,13 @@ pub(crate) fn folder() -> Option<PathBuf> {
 /// The scene made ready, its bake from the cache if it is there.
 pub(crate) fn prepare(scene: Scene, progress: &dyn Progress) -> Result<Prepared> {
     let baked = bake(&scene, progress)?;
-    Ok(Prepared::of(scene, Arc::new(baked))?)
+    let baked = Arc::new(baked);
+    Ok(Prepared::with_bake(
+        scene,
+        baked,
+        folder().as_deref(),
+        progress,
+    )?)
 }
 
 /// The scene's bake, from the cache if it is there.

@@ -4,7 +4,9 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use langevin_rigid_formats::export::{self, Format, Kind, Options, RecordedBody, Recording, Up};
+use langevin_rigid_formats::export::{
+    self, BodyRow, Format, Kind, Options, RecordedBody, Recording, Up, read_bodies,
+};
 use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::{Trajectory, read_csv};
 use langevin_rigid_scenes::scene::{self, Scene};
@@ -12,6 +14,7 @@ use serde_json::Value;
 
 use crate::arguments::Export;
 use crate::bars::Bars;
+use crate::cast::Cast;
 use crate::{cache, forecast, say};
 
 pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
@@ -20,16 +23,24 @@ pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     keep_the_table(options, folder)?;
     let summary = summary(&options.run);
     let trajectories = trajectories(&options.run, &summary)?;
+    let rows = bodies(&options.run, &summary)?;
     let scene = scene_of(&options.run, &summary)?;
     forecast(options, &trajectories)?;
     let _claim = Claim::folder(folder)?;
-    let baked = cache::bake(&scene, bars)?;
+    let prepared = cache::prepare(scene, bars)?;
+    let cast = Cast::new(&prepared)?;
     bars.clear();
-    let kind = Kind::new(&scene.name, &baked.bake);
-    let bodies: Vec<RecordedBody<'_>> = trajectories.iter().map(RecordedBody::from).collect();
+    for notice in cast.notices() {
+        say::warning(notice);
+    }
+    let kinds = cast.kinds();
+    let bodies = trajectories
+        .iter()
+        .map(|trajectory| recorded(trajectory, &kinds, &rows));
+    let bodies: Vec<RecordedBody<'_>> = bodies.collect::<Result<_>>()?;
     let run = Recording {
-        conditions: scene.conditions(),
-        kinds: &[kind],
+        conditions: prepared.scene().conditions(),
+        kinds: &kinds,
         bodies: &bodies,
     };
     let how = Options {
@@ -102,6 +113,45 @@ fn trajectories(run: &Path, summary: &Value) -> Result<Vec<Trajectory>> {
     read_csv(&table).with_context(|| path.display().to_string())
 }
 
+/// Kinds and sizes of the bodies, where they differ.
+fn bodies(run: &Path, summary: &Value) -> Result<Vec<BodyRow>> {
+    let name = "bodies.csv";
+    let files = summary["files"].as_array();
+    if !files.is_some_and(|files| files.iter().any(|file| file == name)) {
+        return Ok(Vec::new());
+    }
+    let path = run.join(name);
+    let table = std::fs::read_to_string(&path).with_context(|| {
+        format!(
+            "cannot read `{}`, the kinds and sizes of the bodies",
+            path.display()
+        )
+    })?;
+    read_bodies(&table).with_context(|| path.display().to_string())
+}
+
+fn recorded<'a>(
+    trajectory: &'a Trajectory,
+    kinds: &[Kind<'_>],
+    rows: &[BodyRow],
+) -> Result<RecordedBody<'a>> {
+    if rows.is_empty() {
+        return Ok(trajectory.into());
+    }
+    let number = trajectory.body;
+    let row = rows.iter().find(|row| row.body == number);
+    let row = row.with_context(|| format!("bodies.csv does not tell the kind of body {number}"))?;
+    let kind = kinds.iter().position(|kind| kind.name == row.kind);
+    Ok(RecordedBody {
+        kind: kind.with_context(|| {
+            let kind = &row.kind;
+            format!("body {number} is of kind `{kind}`, which the scene does not have")
+        })?,
+        scale: row.scale,
+        trajectory,
+    })
+}
+
 /// What the run said of itself; nothing where that is lost.
 fn summary(run: &Path) -> Value {
     let bytes = std::fs::read(run.join("summary.json")).ok();
@@ -109,9 +159,15 @@ fn summary(run: &Path) -> Value {
     summary.unwrap_or_default()
 }
 
-/// The scene of a run, by the name it had.
+/// The scene of a run, by the name it had, without what moved its bodies.
 fn scene_of(run: &Path, summary: &Value) -> Result<Scene> {
     let scene = scene::find(&run.join("scene.toml").display().to_string())?;
     let name = summary["scene"].as_str().unwrap_or(&scene.name).to_owned();
-    Ok(Scene { name, ..scene })
+    Ok(Scene {
+        name,
+        wind: Vec::new(),
+        obstacles: Vec::new(),
+        water: None,
+        ..scene
+    })
 }

@@ -5,23 +5,19 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context as _, Result, bail};
-use langevin_rigid::Bake;
 use langevin_rigid_formats::budget;
-use langevin_rigid_formats::export::{
-    self, ExportError, Format, Kind, Options, RecordedBody, Recording,
-};
+use langevin_rigid_formats::export::{self, ExportError, Format, Options, RecordedBody, Recording};
 use langevin_rigid_formats::files;
 use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::Trajectory;
-use langevin_rigid_formats::visual::Visual;
 use langevin_rigid_pictures::Film;
 use langevin_rigid_scenes::baking::Baked;
-use langevin_rigid_scenes::look::look;
 use langevin_rigid_scenes::prepared::{Fall, Prepared};
 use langevin_rigid_scenes::scene::{self, Scene};
 
 use crate::arguments::Simulate;
 use crate::bars::Bars;
+use crate::cast::Cast;
 use crate::pictures::{self, Shot};
 use crate::summary::Summary;
 use crate::{cache, forecast, say};
@@ -46,7 +42,8 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     prepared.check_release()?;
     forecast(options, scene, baked)?;
 
-    let looks = looks(&prepared)?;
+    // Read before there is anything to lose.
+    let cast = Cast::new(&prepared)?;
 
     let started = Instant::now();
     let falls = drop(options.bodies, &prepared, bars)?;
@@ -56,9 +53,7 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     summary
         .warnings
         .extend(missing(asked(options.bodies, scene), falls.len()));
-    for look in looks.iter().flatten() {
-        summary.warnings.extend(look.notices().iter().cloned());
-    }
+    summary.warnings.extend(cast.notices());
     summary.seconds.bake = bake_seconds;
     summary.seconds.run = run_seconds;
     let steps: usize = falls.iter().map(|fall| fall.states.len() - 1).sum();
@@ -67,7 +62,7 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
         .iter()
         .map(|fall| Trajectory::new(fall.body, &fall.states))
         .collect();
-    let kinds = kinds(&prepared, &looks);
+    let kinds = cast.kinds();
     let bodies = falls.iter().zip(&trajectories);
     let bodies: Vec<RecordedBody<'_>> = bodies
         .map(|(fall, trajectory)| RecordedBody {
@@ -114,36 +109,6 @@ fn drop(bodies: u32, prepared: &Prepared, bars: &Bars) -> Result<Vec<Fall>> {
     }
     let each = most(u64::from(bodies));
     Ok(bars.stoppable(|| prepared.drop_side_by_side(bodies, each, bars)))
-}
-
-/// The looks of the kinds of bodies, read before there is anything to lose.
-fn looks(prepared: &Prepared) -> Result<Vec<Option<Visual>>> {
-    let Some(surroundings) = prepared.surroundings() else {
-        return Ok(vec![look(prepared.scene())?]);
-    };
-    let kinds = surroundings.kinds().iter();
-    Ok(kinds
-        .map(|kind| look(&kind.scene))
-        .collect::<Result<_, _>>()?)
-}
-
-fn kinds<'a>(prepared: &'a Prepared, looks: &'a [Option<Visual>]) -> Vec<Kind<'a>> {
-    let bakes: Vec<(&str, &Bake)> = match prepared.surroundings() {
-        None => vec![(&prepared.scene().name, &prepared.baked().bake)],
-        Some(surroundings) => {
-            let kinds = surroundings.kinds().iter();
-            kinds
-                .map(|kind| (kind.scene.name.as_str(), &kind.baked.bake))
-                .collect()
-        }
-    };
-    let pairs = bakes.into_iter().zip(looks);
-    pairs
-        .map(|((name, bake), look)| Kind {
-            visual: look.as_ref(),
-            ..Kind::new(name, bake)
-        })
-        .collect()
 }
 
 fn missing(asked: u32, begun: usize) -> Option<String> {
@@ -281,25 +246,10 @@ fn write_all(
     Ok(written)
 }
 
-/// The scene as it was run; a mesh, a table of wind and a drawn path are named by their full paths so that the file works
-/// anywhere.
+/// The scene as it was run; files are named by their full paths so that it works anywhere.
 pub(crate) fn resolved(scene: &Scene) -> Result<String> {
     let mut scene = scene.clone();
-    if let scene::Geometry::Mesh { path, .. } = &mut scene.body.geometry {
-        *path = std::path::absolute(&path)?;
-    }
-    for part in &mut scene.wind {
-        if let scene::SceneField::Table { path } = &mut part.field {
-            *path = std::path::absolute(&path)?;
-        }
-    }
-    if let Some(path) = scene
-        .direct
-        .as_mut()
-        .and_then(|direct| direct.path.as_mut())
-    {
-        path.file = std::path::absolute(&path.file)?;
-    }
+    scene.relocate(|path| std::path::absolute(path))?;
     Ok(scene.to_toml()?)
 }
 

@@ -170,7 +170,7 @@ impl Prepared {
         progress: &dyn Progress,
     ) -> Result<Self, PrepareError> {
         let baked = bake_scene(&scene, cache, progress)?;
-        Self::with_others(scene, Arc::new(baked), cache, progress)
+        Self::with_bake(scene, Arc::new(baked), cache, progress)
     }
 
     /// From a bake that is there: the scene's own, or that of a scene of the same body whose turbulence serves both.
@@ -178,10 +178,14 @@ impl Prepared {
     /// # Errors
     /// [`PrepareError`].
     pub fn of(scene: Scene, baked: Arc<Baked>) -> Result<Self, PrepareError> {
-        Self::with_others(scene, baked, None, &())
+        Self::with_bake(scene, baked, None, &())
     }
 
-    fn with_others(
+    /// The same; the bodies of other scenes in its crowd are baked, or taken from the folder `cache`.
+    ///
+    /// # Errors
+    /// [`PrepareError`].
+    pub fn with_bake(
         scene: Scene,
         baked: Arc<Baked>,
         cache: Option<&Path>,

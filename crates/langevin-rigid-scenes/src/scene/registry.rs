@@ -1,8 +1,9 @@
 //! The built-in scenes and how a scene is found.
 
+use std::convert::Infallible;
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use langevin_rigid::{UnknownName, choose};
 
@@ -125,37 +126,50 @@ pub fn find(name: &str) -> Result<Scene, FindError> {
         .map_or_else(|| name.into(), |s| s.to_string_lossy());
     let mut scene = Scene::parse(&stem, name, &text)?;
     if let Some(folder) = path.parent() {
-        if let Geometry::Mesh { path, .. } = &mut scene.body.geometry {
-            *path = folder.join(&path);
-        }
-        if let Some(visual) = &mut scene.body.visual {
-            *visual = folder.join(&visual);
-        }
-        for obstacle in &mut scene.obstacles {
-            if let ObstacleGeometry::Mesh { path, .. } = &mut obstacle.geometry {
-                *path = folder.join(&path);
-            }
-        }
-        for kind in scene.crowd.iter_mut().flat_map(|crowd| &mut crowd.kinds) {
-            let built_in = BUILT_IN.iter().any(|scene| scene.name == kind.scene);
-            if !built_in {
-                kind.scene = folder.join(&kind.scene).display().to_string();
-            }
-        }
-        for part in &mut scene.wind {
-            if let SceneField::Table { path } = &mut part.field {
-                *path = folder.join(&path);
-            }
-        }
-        if let Some(path) = scene
-            .direct
-            .as_mut()
-            .and_then(|direct| direct.path.as_mut())
-        {
-            path.file = folder.join(&path.file);
-        }
+        let Ok(()) = scene.relocate(|path| Ok::<_, Infallible>(folder.join(path)));
     }
     Ok(scene)
+}
+
+impl Scene {
+    /// Gives the files that it names other paths: meshes, looks, winds, drawn paths, other scenes.
+    ///
+    /// # Errors
+    /// Those of `place`, which makes a path out of one.
+    pub fn relocate<E>(&mut self, place: impl Fn(&Path) -> Result<PathBuf, E>) -> Result<(), E> {
+        let meshes = match &mut self.body.geometry {
+            Geometry::Mesh { path, .. } => Some(path),
+            Geometry::Shape { .. } => None,
+        };
+        let looks = self.body.visual.as_mut();
+        let obstacles = self.obstacles.iter_mut();
+        let obstacles = obstacles.filter_map(|obstacle| match &mut obstacle.geometry {
+            ObstacleGeometry::Mesh { path, .. } => Some(path),
+            _ => None,
+        });
+        let winds = self
+            .wind
+            .iter_mut()
+            .filter_map(|part| match &mut part.field {
+                SceneField::Table { path } => Some(path),
+                _ => None,
+            });
+        let drawn = self.direct.as_mut().and_then(|direct| direct.path.as_mut());
+        let paths = meshes
+            .into_iter()
+            .chain(looks)
+            .chain(obstacles)
+            .chain(winds);
+        for path in paths.chain(drawn.map(|path| &mut path.file)) {
+            *path = place(path)?;
+        }
+        for kind in self.crowd.iter_mut().flat_map(|crowd| &mut crowd.kinds) {
+            if !BUILT_IN.iter().any(|scene| scene.name == kind.scene) {
+                kind.scene = place(Path::new(&kind.scene))?.display().to_string();
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The text of a file, no more than it takes to see that it is too long.
