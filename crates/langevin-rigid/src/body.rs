@@ -271,9 +271,7 @@ impl Body {
                     .surface
                     .potentials
                     .iter()
-                    .map(|p| {
-                        std::array::from_fn(|i| power(1 + i32::from(i > 2)) * p[i])
-                    })
+                    .map(|p| std::array::from_fn(|i| power(1 + i32::from(i > 2)) * p[i]))
                     .collect(),
             },
         }
