@@ -1,4 +1,5 @@
 //! Motions under contact that are known in closed form.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! A coin spun on a table.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! What contacts must keep, and what they must not add.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! What stands still and holds bodies back.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod common;
 

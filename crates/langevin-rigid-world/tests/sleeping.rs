@@ -1,4 +1,5 @@
 //! What sleeps and what wakes it.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod common;
 

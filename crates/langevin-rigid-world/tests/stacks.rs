@@ -1,4 +1,5 @@
 //! Stacks that stand.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod common;
 

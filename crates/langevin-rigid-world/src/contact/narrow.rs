@@ -134,6 +134,7 @@ impl Triangle {
 }
 
 /// The nearest two points.
+#[derive(Clone, Copy)]
 struct Nearest {
     normal: Vector,
     on_a: Vector,

@@ -1,5 +1,9 @@
 //! What the tests share.
-#![allow(dead_code, reason = "no test uses all of it")]
+#![allow(
+    dead_code,
+    clippy::unwrap_used,
+    reason = "no test uses all of it; a test may panic"
+)]
 
 use std::sync::Arc;
 
