@@ -7,7 +7,7 @@
 
 use langevin_rigid_formats::track::TrackError;
 use langevin_rigid_pictures::{
-    Film, Picture, PictureError, PictureOptions, Pose, Subject, View, trajectory_picture,
+    Film, Picture, PictureError, PictureOptions, Pose, Stage, Subject, View, trajectory_picture,
 };
 
 const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -200,7 +200,10 @@ fn a_speck_is_magnified_and_a_large_body_is_not() {
 #[test]
 fn the_ground_is_drawn_where_the_motion_comes_near_it() {
     let with = |ground| PictureOptions {
-        ground,
+        stage: Stage {
+            ground,
+            ..Stage::default()
+        },
         ..seen(View::Front)
     };
     let without = draw(&SHEET, &descent(), &with(None));
