@@ -25,7 +25,7 @@ pub(super) struct Backdrop {
 }
 
 impl Backdrop {
-    pub(super) fn new(stage: &Stage, bounds: &Bounds) -> Result<Self, PictureError> {
+    pub(super) fn new(stage: &Stage, layout: &Layout) -> Result<Self, PictureError> {
         let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
         for (index, solid) in stage.solids.iter().enumerate() {
             let fault = |error: PictureError| PictureError::BadScenery {
@@ -34,11 +34,9 @@ impl Backdrop {
             };
             Solid::check(&solid.subject()).map_err(fault)?;
         }
-        let slopes: Vec<Scenery> = stage
-            .planes
-            .iter()
-            .filter_map(|p| slab(p, bounds))
-            .collect();
+        let mut room = layout.bounds;
+        room.low[1] = floor(layout);
+        let slopes: Vec<Scenery> = stage.planes.iter().filter_map(|p| slab(p, &room)).collect();
         for solid in stage.solids.iter().chain(&slopes) {
             let first = vertices.len() as u32;
             vertices.extend_from_slice(&solid.vertices);
@@ -56,8 +54,6 @@ impl Backdrop {
 
     /// Draws it in a panel; gives the triangles that may stand before bodies.
     pub(super) fn draw(&self, canvas: &mut Canvas, layout: &Layout, panel: &Panel) -> Vec<Facet> {
-        draw_water(canvas, layout, panel);
-        draw_walls(canvas, layout, panel);
         let Some(solid) = &self.solid else {
             return Vec::new();
         };
@@ -75,6 +71,12 @@ impl Backdrop {
         view.draw(canvas, &panel.plot, Before::default());
         view.facets(depth)
     }
+}
+
+/// Draws water and walls.
+pub(super) fn draw(canvas: &mut Canvas, layout: &Layout, panel: &Panel) {
+    draw_water(canvas, layout, panel);
+    draw_walls(canvas, layout, panel);
 }
 
 fn draw_water(canvas: &mut Canvas, layout: &Layout, panel: &Panel) {

@@ -1,6 +1,6 @@
 //! A film of the motion: in each frame the body or the bodies, their paths behind them, the camera fixed.
 
-use crate::backdrop::Backdrop;
+use crate::backdrop::{self, Backdrop};
 use crate::canvas::Canvas;
 use crate::cast::Cast;
 use crate::crowd::{self, Moment};
@@ -85,7 +85,7 @@ impl<'a> Film<'a> {
 
     fn of(cast: Cast<'a>, options: &PictureOptions, fps: f64) -> Result<Self, PictureError> {
         let layout = Layout::new(&cast, options)?;
-        let backdrop = Backdrop::new(&options.stage, &layout.bounds)?;
+        let backdrop = Backdrop::new(&options.stage, &layout)?;
         let duration = cast.end() - cast.start();
         let after_first = duration * fps * (1.0 + 1e-9);
         let fits = fps > 0.0 && after_first < Self::MOST_FRAMES as f64;
@@ -121,6 +121,7 @@ impl<'a> Film<'a> {
         let moment = Moment {
             time,
             paths: self.path,
+            interval: None,
         };
         let one = Instants {
             times: vec![time],
@@ -139,11 +140,18 @@ impl<'a> Film<'a> {
         };
         for panel in &layout.panels {
             axes::draw(&mut canvas, layout, panel, &ticks);
-            let scenery = self.backdrop.draw(&mut canvas, layout, panel);
+            backdrop::draw(&mut canvas, layout, panel);
             if self.cast.crowd {
-                crowd::draw(&mut canvas, layout, panel, &self.cast, moment, &scenery);
+                crowd::draw(
+                    &mut canvas,
+                    layout,
+                    panel,
+                    &self.cast,
+                    moment,
+                    &self.backdrop,
+                );
             } else {
-                scene::draw(&mut canvas, layout, panel, &motion, &scenery);
+                scene::draw(&mut canvas, layout, panel, &motion, &self.backdrop);
             }
         }
         // All digits in every frame, so that the words stand still.

@@ -39,8 +39,8 @@ const LARGEST_SIZE: u32 = 8192;
 const TOO_SMALL: f64 = 56.0;
 const LARGE_ENOUGH: f64 = 72.0;
 /// The same of the largest of many bodies, which would hide each other.
-const TOO_SMALL_OF_MANY: f64 = 14.0;
-const LARGE_ENOUGH_OF_MANY: f64 = 18.0;
+const TOO_SMALL_OF_MANY: f64 = 22.0;
+const LARGE_ENOUGH_OF_MANY: f64 = 28.0;
 /// Bodies that are drawn smaller than this have thinner outlines, units.
 const FULL_OUTLINE: f64 = 48.0;
 

@@ -97,7 +97,6 @@ use hull::Hull;
 use langevin_rigid_formats::track::{Track, TrackError};
 use layout::Layout;
 use placement::Placement;
-use raster::Facet;
 use scene::{Motion, Trail};
 use solid::Solid;
 pub use stage::{Plane, Scenery, Stage};
@@ -388,9 +387,8 @@ pub fn picture_in_flow(
 /// A velocity (m/s) at each place (m), world frame.
 pub type Flow<'a> = &'a dyn Fn([f64; 3]) -> [f64; 3];
 
-/// Draws many bodies as they are at the end of all motion, with the paths of some; `flow` as [`picture_in_flow`] has it.
-///
-/// The options' instants and interval mean nothing here.
+/// Draws many bodies as they are at the end of all motion, with the paths of some, which are drawn on their way too (at the
+/// options' interval, if they have one); `flow` as [`picture_in_flow`] has it.
 ///
 /// # Errors
 ///
@@ -427,16 +425,13 @@ pub fn crowd_picture(
 ) -> Result<Picture, PictureError> {
     let cast = Cast::new(subjects, actors)?;
     let layout = Layout::new(&cast, options)?;
-    let backdrop = Backdrop::new(&options.stage, &layout.bounds)?;
-    let moment = Moment {
-        time: cast.end(),
-        paths: options.path,
-    };
+    let backdrop = Backdrop::new(&options.stage, &layout)?;
+    let moment = Moment::end(&cast, &layout, options);
     let mut canvas = Canvas::new(layout.size)?;
     let arrows = flow.map(|flow| Arrows::new(&layout, &options.stage, flow));
     for (number, panel) in layout.panels.iter().enumerate() {
-        let scenery = set(&mut canvas, &layout, number, arrows.as_ref(), &backdrop);
-        crowd::draw(&mut canvas, &layout, panel, &cast, moment, &scenery);
+        set(&mut canvas, &layout, number, arrows.as_ref());
+        crowd::draw(&mut canvas, &layout, panel, &cast, moment, &backdrop);
     }
     let words = told(crowd::caption(&layout, &cast, moment), arrows.as_ref());
     legend::draw_header(&mut canvas, &layout, options.title.as_deref(), &words);
@@ -458,7 +453,7 @@ fn picture(
     let cast = Cast::alone(subject, poses)?;
     let (solid, track) = cast.first();
     let layout = Layout::new(&cast, options)?;
-    let backdrop = Backdrop::new(&options.stage, &layout.bounds)?;
+    let backdrop = Backdrop::new(&options.stage, &layout)?;
     let instants = match options.interval {
         Some(interval) => strobe::every(track, interval),
         None => strobe::instants(track, options.max_instants, |times| {
@@ -479,8 +474,8 @@ fn picture(
     };
     let arrows = flow.map(|flow| Arrows::new(&layout, &options.stage, flow));
     for (number, panel) in layout.panels.iter().enumerate() {
-        let scenery = set(&mut canvas, &layout, number, arrows.as_ref(), &backdrop);
-        scene::draw(&mut canvas, &layout, panel, &motion, &scenery);
+        set(&mut canvas, &layout, number, arrows.as_ref());
+        scene::draw(&mut canvas, &layout, panel, &motion, &backdrop);
     }
     let words = told(legend::caption(&layout, &instants), arrows.as_ref());
     legend::draw_header(&mut canvas, &layout, options.title.as_deref(), &words);
@@ -493,20 +488,14 @@ fn picture(
     })
 }
 
-/// Sets the stage of a panel; gives what may stand before bodies.
-fn set(
-    canvas: &mut Canvas,
-    layout: &Layout,
-    number: usize,
-    arrows: Option<&Arrows>,
-    backdrop: &Backdrop,
-) -> Vec<Facet> {
+/// Sets the stage of a panel, but for solids.
+fn set(canvas: &mut Canvas, layout: &Layout, number: usize, arrows: Option<&Arrows>) {
     let panel = &layout.panels[number];
     axes::draw(canvas, layout, panel, &axes::Ticks::new(layout));
     if let Some(arrows) = arrows {
         arrows.draw(canvas, layout, number);
     }
-    backdrop.draw(canvas, layout, panel)
+    backdrop::draw(canvas, layout, panel);
 }
 
 /// What is drawn, and what the arrows are.

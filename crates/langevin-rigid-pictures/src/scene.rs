@@ -1,6 +1,6 @@
 //! What moves: the path and the bodies at their instants, painted from far to near.
 
-use crate::backdrop::slack;
+use crate::backdrop::{Backdrop, slack};
 use crate::camera::Direction;
 use crate::canvas::{Area, Canvas, Point};
 use crate::hull::Hull;
@@ -73,13 +73,13 @@ pub(super) struct Motion<'a> {
     pub trail: Trail,
 }
 
-/// Draws path and bodies in one panel.
+/// Draws path and bodies in one panel, and the solids between their shadows and them.
 pub(super) fn draw(
     canvas: &mut Canvas,
     layout: &Layout,
     panel: &Panel,
     motion: &Motion<'_>,
-    scenery: &[Facet],
+    backdrop: &Backdrop,
 ) {
     let Motion {
         solid,
@@ -99,7 +99,8 @@ pub(super) fn draw(
         let path: Vec<[f64; 3]> = places.iter().map(|p| p.world).collect();
         shadows::draw(canvas, layout, panel, solid, &placements, &path);
     }
-    paint(canvas, layout, panel, &pieces, &bodies, scenery);
+    let scenery = backdrop.draw(canvas, layout, panel);
+    paint(canvas, layout, panel, &pieces, &bodies, &scenery);
     if let Trail::Until(_) = trail {
         return;
     }

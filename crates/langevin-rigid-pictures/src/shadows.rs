@@ -23,9 +23,14 @@ pub(super) fn draw(
     for body in bodies {
         cast(canvas, layout, panel, solid, 1.0, body);
     }
-    let track = path.iter().map(|p| fall(panel, *p, under(layout, *p)));
-    let track: Vec<Point> = track.collect();
-    canvas.line(&track, 1.2 * layout.unit, FRAME);
+    let reach = layout.magnification * solid.radius;
+    // It is in two parts where the body goes into water.
+    let floor = |p: &Vec3| under(layout, *p, reach);
+    for part in path.chunk_by(|a, b| floor(a) == floor(b)) {
+        let track = part.iter().map(|p| fall(panel, *p, floor(p)));
+        let track: Vec<Point> = track.collect();
+        canvas.line(&track, 1.2 * layout.unit, FRAME);
+    }
 }
 
 /// The shadow of one body of so many times its kind's size.
@@ -38,7 +43,8 @@ pub(super) fn cast(
     body: &Placement,
 ) {
     let centre = body.to_world(scale(size, solid.centre));
-    let floor = under(layout, centre);
+    let reach = size * layout.magnification * solid.radius;
+    let floor = under(layout, centre, reach);
     let height = (layout.bounds.high[1] - floor).max(f64::MIN_POSITIVE);
     let strength = 0.22 - 0.16 * ((centre[1] - floor) / height).clamp(0.0, 1.0);
     let cast = |v: &Vec3| {
@@ -49,9 +55,9 @@ pub(super) fn cast(
     draw_one(canvas, &hull, fall(panel, centre, floor), strength);
 }
 
-/// The height on which a point casts its shadow: the water where it is above that.
-fn under(layout: &Layout, [_, height, _]: Vec3) -> f64 {
-    let water = layout.water.filter(|level| height >= *level);
+/// The height on which a body of radius `reach` casts its shadow: the water if it is not all under that.
+fn under(layout: &Layout, [_, height, _]: Vec3, reach: f64) -> f64 {
+    let water = layout.water.filter(|level| height + reach >= *level);
     water.unwrap_or_else(|| floor(layout))
 }
 

@@ -5,7 +5,7 @@ use crate::vector::{Vec3, add, cross, dot, normalize, scale, sub};
 use crate::{Plane, Scenery};
 
 /// Thickness of the slab, as a part of the box.
-const THICKNESS: f64 = 0.02;
+const THICKNESS: f64 = 0.01;
 
 /// The slab under the part of the plane that is in the box; nothing where that is no area.
 pub(super) fn slab(plane: &Plane, bounds: &Bounds) -> Option<Scenery> {

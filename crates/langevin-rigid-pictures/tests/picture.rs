@@ -78,8 +78,7 @@ fn differences(a: &Picture, b: &Picture) -> Vec<[usize; 2]> {
 fn body_pixels(subject: &Subject<'_>, poses: &[Pose], options: &PictureOptions) -> Vec<[usize; 2]> {
     let alone = PictureOptions {
         max_instants: 0,
-        title: options.title.clone(),
-        ..*options
+        ..options.clone()
     };
     // The caption tells of the bodies too: leave out its rows.
     let caption_rows = 80;
