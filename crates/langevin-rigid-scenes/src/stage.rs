@@ -80,3 +80,54 @@ pub(crate) fn cuboid(size: Vec3) -> Scenery {
             .collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BALL: &str = r#"
+        fluid.preset = "air"
+        release.position = [0.0, 1.0, 0.0]
+        run = { time_step = 0.002, duration = 0.1, ground = 0.0 }
+        body = { shape = "ellipsoid", semi_axes = [0.01, 0.01, 0.01], triangles = 80, density = 1100.0 }
+        tank.size = [0.4, 0.5, 0.6]
+    "#;
+
+    fn stage(more: &str) -> Stage {
+        let scene = Scene::parse("ball", "ball.toml", &format!("{BALL}{more}")).unwrap();
+        Prepared::new(scene, None, &()).unwrap().stage()
+    }
+
+    #[test]
+    fn a_world_has_what_its_bodies_meet_and_other_scenes_have_ground_alone() {
+        let ground = Stage {
+            ground: Some(0.0),
+            ..Stage::default()
+        };
+        assert_eq!(stage(""), ground);
+        let world = stage(
+            r#"
+            [water]
+            level = 0.2
+            [[obstacle]]
+            shape = "plane"
+            position = [0.0, 0.1, 0.0]
+            normal = [0.0, 1.0, 0.0]
+            [[obstacle]]
+            shape = "plane"
+            position = [0.0, 0.1, 0.0]
+            normal = [0.6, 0.8, 0.0]
+            [[obstacle]]
+            shape = "box"
+            size = [0.1, 0.2, 0.3]
+            position = [0.0, 0.1, 0.0]
+            "#,
+        );
+        // The level plane is the higher ground.
+        assert_eq!((world.ground, world.water), (Some(0.1), Some(0.2)));
+        assert_eq!(world.walls, Some([[-0.2, 0.0, -0.3], [0.2, 1.0, 0.3]]));
+        assert_eq!((world.planes.len(), world.solids.len()), (1, 1));
+        let vertices = &world.solids[0].vertices;
+        assert_eq!(vertices[7], [0.05, 0.2, 0.15]);
+    }
+}
