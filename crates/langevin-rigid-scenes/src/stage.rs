@@ -90,7 +90,7 @@ mod tests {
         release.position = [0.0, 1.0, 0.0]
         run = { time_step = 0.002, duration = 0.1, ground = 0.0 }
         body = { shape = "ellipsoid", semi_axes = [0.01, 0.01, 0.01], triangles = 80, density = 1100.0 }
-        tank.size = [0.4, 0.5, 0.6]
+        tank.size = [0.4, 1.0, 0.6]
     "#;
 
     fn stage(more: &str) -> Stage {
