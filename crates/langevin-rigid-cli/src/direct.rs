@@ -177,7 +177,7 @@ fn write_all(folder: &Path, prepared: &Prepared, found: &Found, report: &Report)
         let again = Prepared::of(scene, Arc::clone(prepared.baked()))?;
         let fall = again.drop(&again.release(0), &Silent(&()));
         let trajectory = Trajectory::new(fall.body, &fall.states);
-        let picture = Shot::new(Shown::Both, None, &again, &trajectory.poses).picture()?;
+        let picture = Shot::new(Shown::Both, None, &again, &[(&trajectory).into()]).picture()?;
         files::write(&folder.join(format!("best-{number}.png")), &picture)?;
     }
     Ok(())

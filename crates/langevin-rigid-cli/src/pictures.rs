@@ -4,11 +4,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use langevin_rigid::Surface;
+use langevin_rigid::Body;
 use langevin_rigid_bake::progress::Progress;
+use langevin_rigid_formats::export::RecordedBody;
 use langevin_rigid_formats::files;
 use langevin_rigid_pictures::{
-    Film, PictureError, PictureOptions, Pose, Subject, View, picture_in_flow, trajectory_picture,
+    Actor, Film, Picture, PictureError, PictureOptions, Pose, Subject, View, crowd_picture,
+    picture_in_flow, trajectory_picture,
 };
 use langevin_rigid_scenes::prepared::Prepared;
 use rayon::prelude::*;
@@ -22,8 +24,8 @@ const BATCH: usize = 32;
 
 /// A run as the command line wants it drawn.
 pub(crate) struct Shot<'a> {
-    surface: &'a Surface,
-    poses: &'a [Pose],
+    subjects: Vec<Subject<'a>>,
+    actors: Vec<Actor<'a>>,
     options: PictureOptions,
     prepared: &'a Prepared,
 }
@@ -37,22 +39,36 @@ pub(crate) struct Written {
 }
 
 impl<'a> Shot<'a> {
+    /// All bodies of a world; of bodies that know nothing of each other the first, one body or more.
     pub(crate) fn new(
         shown: Shown,
         from: Option<Viewpoint>,
         prepared: &'a Prepared,
-        poses: &'a [Pose],
+        bodies: &[RecordedBody<'a>],
     ) -> Self {
+        let actor = |body: &RecordedBody<'a>| Actor {
+            subject: body.kind,
+            scale: body.scale,
+            poses: &body.trajectory.poses,
+        };
+        let (subjects, seen) = match prepared.surroundings() {
+            None => (vec![subject(prepared.body())], &bodies[..1]),
+            Some(surroundings) => {
+                let kinds = surroundings.kinds().iter();
+                let subjects = kinds.map(|kind| subject(&kind.baked.bake.body));
+                (subjects.collect(), bodies)
+            }
+        };
         let scene = prepared.scene();
         let (model, seed) = (scene.settings.model, scene.seed);
         let usual = PictureOptions::default();
         Self {
-            surface: &prepared.body().surface,
-            poses,
+            subjects,
+            actors: seen.iter().map(actor).collect(),
             prepared,
             options: PictureOptions {
                 title: Some(format!("{} ({model}, seed {seed})", scene.name)),
-                ground: scene.stop.ground,
+                stage: prepared.stage(),
                 interval: scene.picture_interval.filter(|_| shown != Shown::Path),
                 view: from.map_or(usual.view, Viewpoint::view),
                 path: shown != Shown::Strobe,
@@ -65,23 +81,55 @@ impl<'a> Shot<'a> {
         }
     }
 
-    fn subject(&self) -> Subject<'a> {
-        Subject {
-            vertices: &self.surface.vertices,
-            triangles: &self.surface.triangles,
+    /// The body, if there is one only, at its own size.
+    fn alone(&self) -> Option<(&Subject<'a>, &'a [Pose])> {
+        match self.actors[..] {
+            [
+                Actor {
+                    subject,
+                    scale: 1.0,
+                    poses,
+                },
+            ] => Some((&self.subjects[subject], poses)),
+            _ => None,
         }
     }
 
     /// The bytes of the PNG.
     pub(crate) fn picture(&self) -> Result<Vec<u8>, PictureError> {
-        let (subject, options) = (self.subject(), &self.options);
-        if self.prepared.is_still() {
-            return trajectory_picture(&subject, self.poses, options)?.png();
-        }
-        let [first, last] = [self.poses.first(), self.poses.last()];
-        let over = [first, last].map(|pose| pose.map_or(0.0, |pose| pose.time));
+        self.drawn()?.png()
+    }
+
+    fn drawn(&self) -> Result<Picture, PictureError> {
+        let options = &self.options;
+        let poses = || self.actors.iter().flat_map(|actor| actor.poses);
+        let times = || poses().map(|pose| pose.time);
+        let over = [
+            times().reduce(f64::min).unwrap_or(0.0),
+            times().reduce(f64::max).unwrap_or(0.0),
+        ];
         let flow = |place| self.prepared.mean_flow(place, over);
-        picture_in_flow(&subject, self.poses, options, &flow)?.png()
+        let still = self.prepared.is_still();
+        match self.alone() {
+            Some((subject, poses)) if still => trajectory_picture(subject, poses, options),
+            Some((subject, poses)) => picture_in_flow(subject, poses, options, &flow),
+            None if still => crowd_picture(&self.subjects, &self.actors, options, None),
+            None => crowd_picture(&self.subjects, &self.actors, options, Some(&flow)),
+        }
+    }
+
+    fn film(&self, fps: f64) -> Result<Film<'_>, PictureError> {
+        match self.alone() {
+            Some((subject, poses)) => Film::new(subject, poses, &self.options, fps),
+            None => Film::of_crowd(&self.subjects, &self.actors, &self.options, fps),
+        }
+    }
+}
+
+fn subject(body: &Body) -> Subject<'_> {
+    Subject {
+        vertices: &body.surface.vertices,
+        triangles: &body.surface.triangles,
     }
 }
 
@@ -98,7 +146,7 @@ impl Viewpoint {
 
 /// Writes the frames of a run into `folder`, as many as there are until Ctrl-C.
 pub(crate) fn film(shot: &Shot<'_>, folder: &Path, fps: f64, bars: &Bars) -> Result<Written> {
-    let film = Film::new(&shot.subject(), shot.poses, &shot.options, fps)?;
+    let film = shot.film(fps)?;
     let mut written = Written {
         folder: folder.to_owned(),
         frames: 0,

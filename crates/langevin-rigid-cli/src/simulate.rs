@@ -71,8 +71,7 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
             trajectory,
         })
         .collect();
-    let poses = &trajectories[0].poses;
-    let shot = Shot::new(options.picture, options.view, &prepared, poses);
+    let shot = Shot::new(options.picture, options.view, &prepared, &bodies);
     let run = Recording {
         conditions: scene.conditions(),
         kinds: &kinds,

@@ -1,5 +1,6 @@
 //! A field of velocities as arrows behind the motion.
 
+use crate::Stage;
 use crate::camera::Direction;
 use crate::canvas::{Canvas, Point};
 use crate::layout::{Layout, Panel};
@@ -27,16 +28,13 @@ pub(super) struct Arrows {
 }
 
 impl Arrows {
-    /// Samples `velocity` (m/s) of places (m) on the plane of each panel through the middle of the motion, above `ground`.
-    pub(super) fn new(
-        layout: &Layout,
-        ground: Option<f64>,
-        velocity: &dyn Fn(Vec3) -> Vec3,
-    ) -> Self {
+    /// Samples `velocity` (m/s) of places (m) on the plane of each panel through the middle of the motion, above ground and
+    /// water.
+    pub(super) fn new(layout: &Layout, stage: &Stage, velocity: &dyn Fn(Vec3) -> Vec3) -> Self {
         let panels: Vec<Vec<Arrow>> = layout
             .panels
             .iter()
-            .map(|panel| sampled(layout, panel, ground, velocity))
+            .map(|panel| sampled(layout, panel, stage, velocity))
             .collect();
         let speeds = panels.iter().flatten().map(|arrow| length(arrow.velocity));
         let fastest = speeds.filter(|speed| speed.is_finite()).fold(0.0, f64::max);
@@ -82,7 +80,7 @@ fn length([x, y]: Point) -> f64 {
 fn sampled(
     layout: &Layout,
     panel: &Panel,
-    ground: Option<f64>,
+    stage: &Stage,
     velocity: &dyn Fn(Vec3) -> Vec3,
 ) -> Vec<Arrow> {
     // Seen at an angle, arrows on a plane would tell of no place that one could find.
@@ -104,7 +102,8 @@ fn sampled(
             let right = panel.centre[0] + x / panel.scale;
             let up = panel.centre[1] - y / panel.scale;
             let world = transposed_mat_vec(&panel.camera.rows, [right, up, depth]);
-            if ground.is_some_and(|ground| world[1] < ground) {
+            let mut lowest = [stage.ground, stage.water].into_iter().flatten();
+            if lowest.any(|height| world[1] < height) {
                 continue;
             }
             let [along, upwards, _] = panel.camera.project(velocity(world));

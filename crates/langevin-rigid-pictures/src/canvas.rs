@@ -214,10 +214,6 @@ impl Canvas {
             *channel = (mixed + 0.5) as u8;
         }
     }
-
-    pub(super) fn size(&self) -> [usize; 2] {
-        [self.pixmap.width() as usize, self.pixmap.height() as usize]
-    }
 }
 
 fn colour([r, g, b]: Colour, opacity: f64) -> Color {

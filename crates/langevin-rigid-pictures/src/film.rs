@@ -1,13 +1,14 @@
-//! A film of the motion: one body in each frame, its path behind it, the camera fixed.
+//! A film of the motion: in each frame the body or the bodies, their paths behind them, the camera fixed.
 
+use crate::backdrop::{self, Backdrop};
 use crate::canvas::Canvas;
+use crate::cast::Cast;
+use crate::crowd::{self, Moment};
 use crate::layout::Layout;
 use crate::numbers::fixed;
-use crate::scene::{self, Trail};
-use crate::solid::Solid;
+use crate::scene::{self, Motion, Trail};
 use crate::strobe::Instants;
-use crate::{Picture, PictureError, PictureOptions, Pose, Subject, axes, legend};
-use langevin_rigid_formats::track::Track;
+use crate::{Actor, Picture, PictureError, PictureOptions, Pose, Subject, axes, legend};
 
 /// The frames of a motion, all of one size and seen from one place.
 ///
@@ -26,9 +27,9 @@ use langevin_rigid_formats::track::Track;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Film<'a> {
-    solid: Solid,
-    track: Track<'a>,
+    cast: Cast<'a>,
     layout: Layout,
+    backdrop: Backdrop,
     title: Option<String>,
     path: bool,
     fps: f64,
@@ -51,19 +52,50 @@ impl<'a> Film<'a> {
         options: &PictureOptions,
         fps: f64,
     ) -> Result<Self, PictureError> {
-        let track = Track::new(poses)?;
-        let solid = Solid::new(subject)?;
-        let layout = Layout::new(&solid, &track, options)?;
-        let duration = track.end() - track.start();
+        Self::of(Cast::alone(subject, poses)?, options, fps)
+    }
+
+    /// The film of many bodies, each of which is there from its first pose on; the first frame is at the first pose of all.
+    ///
+    /// ```
+    /// use langevin_rigid_pictures::{Actor, Film, PictureOptions, Pose, Subject};
+    /// let sheet = Subject {
+    ///     vertices: &[[-0.1, 0.0, -0.1], [0.1, 0.0, -0.1], [0.1, 0.0, 0.1]],
+    ///     triangles: &[[0, 2, 1]],
+    /// };
+    /// let pose = |time, x| Pose { time, position: [x, -time, 0.0], orientation: [0.0, 0.0, 0.0, 1.0] };
+    /// let (early, late) = ([pose(0.0, 0.0), pose(1.0, 0.0)], [pose(1.0, 1.0), pose(2.0, 1.0)]);
+    /// let actors = [&early, &late].map(|poses| Actor { subject: 0, scale: 1.0, poses });
+    /// let film = Film::of_crowd(&[sheet], &actors, &PictureOptions::default(), 25.0)?;
+    /// assert_eq!(film.frames(), 51);
+    /// # Ok::<(), langevin_rigid_pictures::PictureError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`super::crowd_picture`], and [`PictureError::FrameRate`].
+    pub fn of_crowd(
+        subjects: &[Subject<'_>],
+        actors: &[Actor<'a>],
+        options: &PictureOptions,
+        fps: f64,
+    ) -> Result<Self, PictureError> {
+        Self::of(Cast::new(subjects, actors)?, options, fps)
+    }
+
+    fn of(cast: Cast<'a>, options: &PictureOptions, fps: f64) -> Result<Self, PictureError> {
+        let layout = Layout::new(&cast, options)?;
+        let backdrop = Backdrop::new(&options.stage, &layout)?;
+        let duration = cast.end() - cast.start();
         let after_first = duration * fps * (1.0 + 1e-9);
         let fits = fps > 0.0 && after_first < Self::MOST_FRAMES as f64;
         if !fits {
             return Err(PictureError::FrameRate { fps, duration });
         }
         Ok(Self {
-            solid,
-            track,
+            cast,
             layout,
+            backdrop,
             title: options.title.clone(),
             path: options.path,
             fps,
@@ -82,39 +114,57 @@ impl<'a> Film<'a> {
     ///
     /// [`PictureError::Size`] and [`PictureError::Font`], if at all at the first frame.
     pub fn frame(&self, number: usize) -> Result<Picture, PictureError> {
-        let Self { layout, track, .. } = self;
-        let time = (track.start() + number as f64 / self.fps).min(track.end());
-        let instants = Instants {
+        let time = (self.cast.start() + number as f64 / self.fps).min(self.cast.end());
+        let layout = &self.layout;
+        let mut canvas = Canvas::new(layout.size)?;
+        let ticks = axes::Ticks::new(layout);
+        let moment = Moment {
+            time,
+            paths: self.path,
+            interval: None,
+        };
+        let one = Instants {
             times: vec![time],
             interval: 0.0,
         };
-        let trail = if self.path {
-            Trail::Until(time)
-        } else {
-            Trail::None
+        let trail = match self.path {
+            true => Trail::Until(time),
+            false => Trail::None,
         };
-        let mut canvas = Canvas::new(layout.size)?;
-        let ticks = axes::Ticks::new(layout);
+        let (solid, track) = self.cast.first();
+        let motion = Motion {
+            solid,
+            track,
+            instants: &one,
+            trail,
+        };
         for panel in &layout.panels {
             axes::draw(&mut canvas, layout, panel, &ticks);
-            scene::draw(
-                &mut canvas,
-                layout,
-                panel,
-                &self.solid,
-                track,
-                &instants,
-                trail,
-            );
+            backdrop::draw(&mut canvas, layout, panel);
+            if self.cast.crowd {
+                crowd::draw(
+                    &mut canvas,
+                    layout,
+                    panel,
+                    &self.cast,
+                    moment,
+                    &self.backdrop,
+                );
+            } else {
+                scene::draw(&mut canvas, layout, panel, &motion, &self.backdrop);
+            }
         }
         // All digits in every frame, so that the words stand still.
-        let words = format!("{} s, {}", fixed(time, 3), legend::size(layout));
+        let words = match self.cast.crowd {
+            false => format!("{} s, {}", fixed(time, 3), legend::size(layout)),
+            true => crowd::caption(layout, &self.cast, moment),
+        };
         legend::draw_header(&mut canvas, layout, self.title.as_deref(), &words);
-        legend::draw_legend(&mut canvas, layout, &self.solid, track, self.path);
+        legend::draw_legend(&mut canvas, layout, &self.cast, self.path);
         Ok(Picture {
             size: layout.size,
             rgba: canvas.into_rgba(),
-            times: instants.times,
+            times: one.times,
             magnification: layout.magnification,
         })
     }

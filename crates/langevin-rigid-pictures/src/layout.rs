@@ -3,13 +3,14 @@
 
 use crate::camera::{Camera, Direction};
 use crate::canvas::{Area, Point};
+use crate::cast::{Cast, Player};
 use crate::numbers::fine_above;
+use crate::palette::BODY;
 use crate::placement::Placement;
 use crate::raster::View;
 use crate::solid::Solid;
-use crate::vector::{Vec3, mul_mat, sub};
-use crate::{PictureError, PictureOptions};
-use langevin_rigid_formats::track::Track;
+use crate::vector::{Vec3, mul_mat, scale, sub};
+use crate::{PictureError, PictureOptions, Stage};
 
 /// Lengths in units of the page, which is a pixel on a page of ordinary size.
 const MARGIN: f64 = 36.0;
@@ -37,6 +38,18 @@ const LARGEST_SIZE: u32 = 8192;
 /// A body that would be smaller than the first is drawn at least as large as the second, units.
 const TOO_SMALL: f64 = 56.0;
 const LARGE_ENOUGH: f64 = 72.0;
+/// The same of the largest of many bodies, which would hide each other.
+const TOO_SMALL_OF_MANY: f64 = 22.0;
+const LARGE_ENOUGH_OF_MANY: f64 = 28.0;
+/// Bodies that are drawn smaller than this have thinner outlines, units.
+const FULL_OUTLINE: f64 = 48.0;
+
+/// Parts of the size of the motion: how far away things are drawn, and how much of what is below a surface.
+const NEAR: f64 = 0.3;
+const BELOW_GROUND: f64 = 0.04;
+const BELOW_WATER: f64 = 0.08;
+/// Walls around so many times the motion are drawn.
+const WIDEST_WALLS: f64 = 4.0;
 
 /// The box around everything drawn, world frame.
 #[derive(Clone, Copy, Debug)]
@@ -70,6 +83,19 @@ impl Bounds {
 
     fn size(&self) -> Vec3 {
         sub(self.high, self.low)
+    }
+
+    pub(super) fn longest(&self) -> f64 {
+        self.size().into_iter().fold(0.0, f64::max)
+    }
+
+    /// What is in both, if anything is.
+    fn common(self, other: Self) -> Option<Self> {
+        let both = Self {
+            low: std::array::from_fn(|i| self.low[i].max(other.low[i])),
+            high: std::array::from_fn(|i| self.high[i].min(other.high[i])),
+        };
+        (0..3).all(|i| both.low[i] <= both.high[i]).then_some(both)
     }
 
     pub(super) fn corners(self) -> impl Iterator<Item = Vec3> {
@@ -131,44 +157,48 @@ pub(super) struct Layout {
     pub bounds: Bounds,
     /// Height of the ground, where it is near enough to be drawn, metres.
     pub ground: Option<f64>,
+    /// Height of the water's surface, unless it is far below, metres.
+    pub water: Option<f64>,
+    /// The box between the walls, where they are near enough.
+    pub walls: Option<Bounds>,
 }
 
 impl Layout {
-    pub(super) fn new(
-        solid: &Solid,
-        track: &Track<'_>,
-        options: &PictureOptions,
-    ) -> Result<Self, PictureError> {
+    pub(super) fn new(cast: &Cast<'_>, options: &PictureOptions) -> Result<Self, PictureError> {
         check_size(options)?;
-        let mut layout = Self::magnified(1.0, solid, track, options);
+        let mut layout = Self::magnified(1.0, cast, options);
         // The body's drawn size and the scale that makes room for it settle in a step or two.
         for _ in 0..6 {
-            let wanted = layout.wanted_magnification(solid.radius);
+            let wanted = layout.wanted_magnification(cast);
             if wanted <= layout.magnification {
                 break;
             }
-            layout = Self::magnified(wanted, solid, track, options);
+            layout = Self::magnified(wanted, cast, options);
         }
         Ok(layout)
     }
 
-    fn wanted_magnification(&self, radius: f64) -> f64 {
-        let drawn = 2.0 * radius * self.scale / self.unit;
-        if drawn * self.magnification >= TOO_SMALL || drawn <= 0.0 {
+    fn wanted_magnification(&self, cast: &Cast<'_>) -> f64 {
+        let [too_small, enough] = match cast.crowd {
+            false => [TOO_SMALL, LARGE_ENOUGH],
+            true => [TOO_SMALL_OF_MANY, LARGE_ENOUGH_OF_MANY],
+        };
+        let drawn = 2.0 * cast.radius() * self.scale / self.unit;
+        if drawn * self.magnification >= too_small || drawn <= 0.0 {
             self.magnification
         } else {
-            fine_above(LARGE_ENOUGH / drawn)
+            fine_above(enough / drawn)
         }
     }
 
-    /// The layout with a body so many times its true size.
-    fn magnified(
-        magnification: f64,
-        solid: &Solid,
-        track: &Track<'_>,
-        options: &PictureOptions,
-    ) -> Self {
-        let (bounds, ground) = bounds(magnification, solid, track, options.ground);
+    /// The layout with bodies so many times their true size.
+    fn magnified(magnification: f64, cast: &Cast<'_>, options: &PictureOptions) -> Self {
+        let Surrounded {
+            bounds,
+            ground,
+            water,
+            walls,
+        } = Surrounded::new(motion(magnification, cast), &options.stage);
         let cameras: Vec<Camera> = options
             .view
             .directions()
@@ -199,6 +229,8 @@ impl Layout {
             magnification,
             bounds,
             ground,
+            water,
+            walls,
         }
     }
 
@@ -212,6 +244,31 @@ impl Layout {
             magnified_scale: self.scale * self.magnification,
             outline: 1.5 * self.unit.max(0.7),
             border: 1.6 * self.unit,
+            lift: 0.01 * solid.radius * (self.scale * self.magnification),
+            paints: BODY,
+        }
+    }
+
+    /// One of many bodies, of so many times its kind's size.
+    pub(super) fn view_of_many<'a>(
+        &self,
+        panel: &Panel,
+        solid: &'a Solid,
+        size: f64,
+        at: &Placement,
+    ) -> View<'a> {
+        let [x, y, _] = panel.place(at.to_world(scale(size, solid.centre)));
+        let whole = self.view(panel, solid, at);
+        let magnified_scale = size * whole.magnified_scale;
+        let drawn = 2.0 * solid.radius * magnified_scale;
+        let fine = (drawn / (FULL_OUTLINE * self.unit)).clamp(0.3, 1.0);
+        View {
+            centre: [x, y],
+            magnified_scale,
+            outline: fine * whole.outline,
+            border: if fine < 1.0 { 0.0 } else { whole.border },
+            lift: size * whole.lift,
+            ..whole
         }
     }
 
@@ -257,35 +314,84 @@ fn check_size(options: &PictureOptions) -> Result<(), PictureError> {
     }
 }
 
-/// The box around the path and the bodies, widened to the ground where that is near.
-fn bounds(
-    magnification: f64,
-    solid: &Solid,
-    track: &Track<'_>,
-    ground: Option<f64>,
-) -> (Bounds, Option<f64>) {
-    let path = Bounds::of(track.poses().iter().map(|p| p.position));
-    let at = |p: &crate::Pose| Placement::of(track.at(p.time)).to_world(solid.centre);
-    let bodies = Bounds::of(track.poses().iter().map(at)).grown(magnification * solid.radius);
-    let mut bounds = path.union(bodies);
+/// The box around the paths and the bodies.
+fn motion(magnification: f64, cast: &Cast<'_>) -> Bounds {
+    let around = |player: &Player<'_>| {
+        let (solid, track) = (cast.solid(player), &player.track);
+        let path = Bounds::of(track.poses().iter().map(|p| p.position));
+        let centre = scale(player.scale, solid.centre);
+        let at = |p: &crate::Pose| Placement::of(track.at(p.time)).to_world(centre);
+        let reach = magnification * player.scale * solid.radius;
+        let bodies = Bounds::of(track.poses().iter().map(at)).grown(reach);
+        path.union(bodies)
+    };
+    let all = cast.players().iter().map(around).reduce(Bounds::union);
+    let bounds = all.unwrap_or(Bounds::of(std::iter::once([0.0; 3])));
     // Room for a path shorter than the digits of its position, or of no length at all.
     let digits = bounds
         .low
         .iter()
         .chain(&bounds.high)
         .fold(0.0, |m: f64, c| m.max(c.abs()));
-    let largest = bounds.size().into_iter().fold(0.0, f64::max);
     let least = (1e-9 * digits).max(1e-9);
-    if largest < least {
-        bounds = bounds.grown(least);
+    if bounds.longest() < least {
+        bounds.grown(least)
+    } else {
+        bounds
     }
-    let size = bounds.size().into_iter().fold(0.0, f64::max);
-    let near = |g: &f64| (bounds.low[1] - 0.3 * size..=bounds.high[1]).contains(g);
-    let ground = ground.filter(near);
-    if let Some(height) = ground {
-        bounds.low[1] = bounds.low[1].min(height - 0.04 * size);
+}
+
+/// The motion, and what of the stage is near it.
+struct Surrounded {
+    /// Around the motion and what is drawn with it.
+    bounds: Bounds,
+    ground: Option<f64>,
+    water: Option<f64>,
+    walls: Option<Bounds>,
+}
+
+impl Surrounded {
+    fn new(motion: Bounds, stage: &Stage) -> Self {
+        let mut bounds = motion;
+        let widest = WIDEST_WALLS * motion.longest();
+        let walls = stage.walls.map(|[low, high]| Bounds { low, high });
+        let walls = walls.filter(|walls| walls.longest() <= widest);
+        if let Some(walls) = walls {
+            bounds = bounds.union(walls);
+        }
+        let about = motion.grown(NEAR * motion.longest());
+        for solid in &stage.solids {
+            let solid = Bounds::of(solid.vertices.iter().copied());
+            if let Some(near) = solid.common(about) {
+                bounds = bounds.union(near);
+            }
+        }
+        let size = bounds.longest();
+        let [low, high] = [bounds.low[1], bounds.high[1]];
+        let ground = stage
+            .ground
+            .filter(|height| (low - NEAR * size..=high).contains(height));
+        let water = stage.water.filter(|level| *level >= low - NEAR * size);
+        let below = [(ground, BELOW_GROUND), (water, BELOW_WATER)];
+        for (height, part) in below {
+            if let Some(height) = height {
+                bounds.low[1] = bounds.low[1].min(height - part * size);
+            }
+        }
+        if let Some(level) = water.filter(|level| *level <= high + NEAR * size) {
+            bounds.high[1] = bounds.high[1].max(level + BELOW_GROUND * size);
+        }
+        // There is no water under the ground.
+        if let (Some(ground), Some(_)) = (ground, water) {
+            bounds.low[1] = low.min(ground - BELOW_GROUND * size);
+        }
+        Self {
+            bounds,
+            ground,
+            water,
+            walls,
+        }
     }
-    (bounds, ground)
 }
 
 /// Lowest and highest right and up coordinates of the box.
@@ -440,6 +546,7 @@ mod tests {
     use super::*;
     use crate::shapes::plate;
     use crate::{PictureOptions, Pose, Subject, View};
+    use langevin_rigid_formats::track::Track;
 
     const VIEWS: [View; 5] = [
         View::Front,
@@ -476,22 +583,21 @@ mod tests {
             vertices: &vertices,
             triangles: &triangles,
         };
-        let solid = Solid::new(&subject).unwrap();
         let poses = tumbling(path, count);
-        let track = Track::new(&poses).unwrap();
+        let cast = Cast::alone(&subject, &poses).unwrap();
+        let (solid, track) = cast.first();
         for view in VIEWS {
             for size in [None, Some([240, 240]), Some([4000, 300]), Some([300, 4000])] {
                 let options = PictureOptions {
                     size,
                     view,
-                    ground: Some(2.9),
+                    stage: Stage {
+                        ground: Some(2.9),
+                        ..Stage::default()
+                    },
                     ..PictureOptions::default()
                 };
-                check(
-                    &Layout::new(&solid, &track, &options).unwrap(),
-                    &solid,
-                    &track,
-                );
+                check(&Layout::new(&cast, &options).unwrap(), solid, track);
             }
         }
     }

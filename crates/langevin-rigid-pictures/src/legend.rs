@@ -2,6 +2,7 @@
 
 use crate::axes::style;
 use crate::canvas::{Align, Canvas, Point, TextStyle};
+use crate::cast::Cast;
 use crate::font::Weight;
 use crate::layout::Layout;
 use crate::numbers::{LengthUnit, coarse_below, short};
@@ -9,7 +10,6 @@ use crate::palette::{Colour, LOWER_FACE, OUTLINE, TEXT, UPPER_FACE, path as path
 use crate::scene::{end_mark, start_mark};
 use crate::solid::Solid;
 use crate::strobe::Instants;
-use langevin_rigid_formats::track::Track;
 
 /// Page lengths in units.
 const TITLE: f64 = 30.0;
@@ -82,19 +82,13 @@ pub(super) fn caption(layout: &Layout, instants: &Instants) -> String {
 }
 
 /// Draws the key below the panels, from left to right, in the rows kept for it.
-pub(super) fn draw_legend(
-    canvas: &mut Canvas,
-    layout: &Layout,
-    solid: &Solid,
-    track: &Track<'_>,
-    path: bool,
-) {
+pub(super) fn draw_legend(canvas: &mut Canvas, layout: &Layout, cast: &Cast<'_>, path: bool) {
     let mut key = Key {
         layout,
         unit: layout.unit,
-        path,
+        path: path && !cast.crowd,
     };
-    let mut entries = key.entries(solid, track);
+    let mut entries = key.entries(cast);
     let area = layout.legend();
     // Long words take a smaller hand; half the size is room for twice the words.
     while key
@@ -104,7 +98,7 @@ pub(super) fn draw_legend(
         && key.unit > 0.5 * layout.unit
     {
         key.unit *= 0.96;
-        entries = key.entries(solid, track);
+        entries = key.entries(cast);
     }
     let places = key.place(canvas, &entries);
     for (entry, place) in entries.iter().zip(places) {
@@ -116,7 +110,7 @@ pub(super) fn draw_legend(
 struct Key<'a> {
     layout: &'a Layout,
     unit: f64,
-    /// Whether there is a path to explain.
+    /// Whether there is a path whose colours are to be explained.
     path: bool,
 }
 
@@ -137,7 +131,8 @@ enum Sign {
 }
 
 impl Key<'_> {
-    fn entries(&self, solid: &Solid, track: &Track<'_>) -> Vec<Entry> {
+    fn entries(&self, cast: &Cast<'_>) -> Vec<Entry> {
+        let (_, track) = cast.first();
         let mut entries = Vec::new();
         if self.path && track.end() > track.start() {
             entries.push(Entry {
@@ -150,12 +145,16 @@ impl Key<'_> {
         for (sign, colour) in [(1.0, UPPER_FACE), (-1.0, LOWER_FACE)] {
             entries.push(Entry {
                 sign: Sign::Face(colour),
-                words: face_name(solid, sign),
+                words: face_name(cast.solids(), sign),
             });
         }
         entries.push(self.bar(1.0, ""));
         if self.layout.magnification > 1.0 {
-            entries.push(self.bar(self.layout.magnification, " of the body"));
+            let of = match cast.crowd {
+                false => " of the body",
+                true => " of a body",
+            };
+            entries.push(self.bar(self.layout.magnification, of));
         }
         entries
     }
@@ -229,10 +228,13 @@ impl Key<'_> {
     }
 }
 
-/// A face by the body axis it looks along, or by its colour where the mesh lies askew.
-fn face_name(solid: &Solid, sign: f64) -> String {
+/// A face by the body axis it looks along, or by its colour where the mesh lies askew or bodies differ.
+fn face_name(solids: &[Solid], sign: f64) -> String {
     let letter = if sign > 0.0 { '+' } else { '\u{2212}' };
-    match solid.thin_axis.iter().position(|c| *c == 1.0) {
+    let thin_axis = solids[0].thin_axis;
+    let common = solids.iter().all(|solid| solid.thin_axis == thin_axis);
+    let axis = thin_axis.iter().position(|c| *c == 1.0);
+    match axis.filter(|_| common) {
         Some(axis) => format!("{letter}{} side", ["x", "y", "z"][axis]),
         None if sign > 0.0 => "one side".to_owned(),
         None => "other side".to_owned(),

@@ -42,11 +42,12 @@
 //!   the shortest round one at which they stay apart. The two sides of the body differ in colour, so that a flip shows;
 //!   the path darkens with time. A body that would be too small beside its path is magnified, and the caption says how
 //!   much.
-//! - [`Film`]: the same motion as frames, one body in each, from a fixed camera.
+//! - [`crowd_picture`]: many bodies at their end, with the paths of some.
+//! - [`Film`]: the same motions as frames from a fixed camera.
 //! - [`kinds`]: categories as marks over coloured regions, on two logarithmic axes.
 //!
-//! [`Subject`] is the body, a [`Pose`] says where it is, [`PictureOptions`] and [`View`] say how it is seen, and a
-//! [`Picture`] comes out.
+//! [`Subject`] is the body, a [`Pose`] says where it is, an [`Actor`] is one body of many. The [`Stage`] is what they fall
+//! onto and into, [`PictureOptions`] and [`View`] say how they are seen, and a [`Picture`] comes out.
 //!
 //! # Conventions
 //!
@@ -60,8 +61,11 @@
 
 mod arrows;
 mod axes;
+mod backdrop;
 mod camera;
 mod canvas;
+mod cast;
+mod crowd;
 mod film;
 mod font;
 mod hull;
@@ -77,19 +81,25 @@ mod scene;
 mod shadows;
 #[cfg(test)]
 mod shapes;
+mod slope;
 mod solid;
+mod stage;
 mod strobe;
 mod vector;
 
 use arrows::Arrows;
+use backdrop::Backdrop;
 use canvas::Canvas;
+use cast::Cast;
+use crowd::Moment;
 pub use film::Film;
 use hull::Hull;
 use langevin_rigid_formats::track::{Track, TrackError};
 use layout::Layout;
 use placement::Placement;
-use scene::Trail;
+use scene::{Motion, Trail};
 use solid::Solid;
+pub use stage::{Plane, Scenery, Stage};
 
 pub use langevin_rigid_formats::track::Pose;
 
@@ -101,6 +111,17 @@ pub struct Subject<'a> {
     /// Vertex indices of each triangle, counterclockwise seen from outside. Open sheets and loose
     /// triangles are drawn as well.
     pub triangles: &'a [[u32; 3]],
+}
+
+/// One of many bodies to draw.
+#[derive(Clone, Copy, Debug)]
+pub struct Actor<'a> {
+    /// Number of its [`Subject`] among those that are given with it.
+    pub subject: usize,
+    /// Its size as a multiple of the subject's.
+    pub scale: f64,
+    /// Where it is, from when it appears on; after the last it stays.
+    pub poses: &'a [Pose],
 }
 
 /// Where the picture is seen from. All views are orthographic.
@@ -130,8 +151,8 @@ pub struct PictureOptions {
     pub view: View,
     /// Heading, one line.
     pub title: Option<String>,
-    /// Height of level ground in the world frame, m; drawn where the motion comes near it.
-    pub ground: Option<f64>,
+    /// What stands around the bodies.
+    pub stage: Stage,
     /// Most instants at which the body is drawn; fewer are where bodies would cover each other.
     /// Zero draws the path alone.
     pub max_instants: usize,
@@ -143,13 +164,13 @@ pub struct PictureOptions {
 }
 
 impl Default for PictureOptions {
-    /// Front and side view, size chosen, no title, no ground, the path and at most 32 instants.
+    /// Front and side view, size chosen, no title, an empty stage, the path and at most 32 instants.
     fn default() -> Self {
         Self {
             size: None,
             view: View::default(),
             title: None,
-            ground: None,
+            stage: Stage::default(),
             max_instants: 32,
             interval: None,
             path: true,
@@ -180,6 +201,20 @@ pub enum PictureError {
         index: usize,
         /// How many vertices there are.
         vertices: usize,
+    },
+    /// A body of a crowd names a subject that does not exist, or has no size.
+    #[error("body {index} names no subject that is there, or its scale is not positive")]
+    BadActor {
+        /// Its place among the bodies, from zero.
+        index: usize,
+    },
+    /// A solid of the stage cannot be drawn.
+    #[error("solid {index} of the stage, taken as a body: {fault}")]
+    BadScenery {
+        /// Its place among the solids, from zero.
+        index: usize,
+        /// What is wrong with it.
+        fault: Box<PictureError>,
     },
     /// The picture is too small to hold anything, or too large.
     #[error("a picture of {width} x {height} pixels cannot be drawn: ask for 240 to 8192 each way")]
@@ -344,24 +379,85 @@ pub fn picture_in_flow(
     subject: &Subject<'_>,
     poses: &[Pose],
     options: &PictureOptions,
-    velocity: &dyn Fn([f64; 3]) -> [f64; 3],
+    velocity: Flow<'_>,
 ) -> Result<Picture, PictureError> {
     picture(subject, poses, options, Some(velocity))
+}
+
+/// A velocity (m/s) at each place (m), world frame.
+pub type Flow<'a> = &'a dyn Fn([f64; 3]) -> [f64; 3];
+
+/// Draws many bodies as they are at the end of all motion, with the paths of some, which are drawn on their way too (at the
+/// options' interval, if they have one); `flow` as [`picture_in_flow`] has it.
+///
+/// # Errors
+///
+/// As [`trajectory_picture`], and [`PictureError::BadActor`].
+///
+/// # Example
+///
+/// ```
+/// use langevin_rigid_pictures::{Actor, PictureOptions, Pose, Stage, Subject, crowd_picture};
+///
+/// let sheet = Subject {
+///     vertices: &[[-0.1, 0.0, -0.1], [0.1, 0.0, -0.1], [0.1, 0.0, 0.1], [-0.1, 0.0, 0.1]],
+///     triangles: &[[0, 2, 1], [0, 3, 2]],
+/// };
+/// let fall = |x: f64| [0.0, 1.0].map(|time| Pose {
+///     time,
+///     position: [x, 1.0 - time, 0.0],
+///     orientation: [0.0, 0.0, 0.0, 1.0],
+/// });
+/// let (left, right) = (fall(-0.5), fall(0.5));
+/// let small = Actor { subject: 0, scale: 0.5, poses: &left };
+/// let large = Actor { subject: 0, scale: 1.0, poses: &right };
+/// let stage = Stage { ground: Some(0.0), ..Stage::default() };
+/// let options = PictureOptions { stage, ..PictureOptions::default() };
+/// let picture = crowd_picture(&[sheet], &[small, large], &options, None)?;
+/// assert_eq!(picture.times(), [1.0]);
+/// # Ok::<(), langevin_rigid_pictures::PictureError>(())
+/// ```
+pub fn crowd_picture(
+    subjects: &[Subject<'_>],
+    actors: &[Actor<'_>],
+    options: &PictureOptions,
+    flow: Option<Flow<'_>>,
+) -> Result<Picture, PictureError> {
+    let cast = Cast::new(subjects, actors)?;
+    let layout = Layout::new(&cast, options)?;
+    let backdrop = Backdrop::new(&options.stage, &layout)?;
+    let moment = Moment::end(&cast, &layout, options);
+    let mut canvas = Canvas::new(layout.size)?;
+    let arrows = flow.map(|flow| Arrows::new(&layout, &options.stage, flow));
+    for (number, panel) in layout.panels.iter().enumerate() {
+        set(&mut canvas, &layout, number, arrows.as_ref());
+        crowd::draw(&mut canvas, &layout, panel, &cast, moment, &backdrop);
+    }
+    let words = told(crowd::caption(&layout, &cast, moment), arrows.as_ref());
+    legend::draw_header(&mut canvas, &layout, options.title.as_deref(), &words);
+    legend::draw_legend(&mut canvas, &layout, &cast, options.path);
+    Ok(Picture {
+        size: layout.size,
+        rgba: canvas.into_rgba(),
+        times: vec![moment.time],
+        magnification: layout.magnification,
+    })
 }
 
 fn picture(
     subject: &Subject<'_>,
     poses: &[Pose],
     options: &PictureOptions,
-    velocity: Option<&dyn Fn([f64; 3]) -> [f64; 3]>,
+    flow: Option<Flow<'_>>,
 ) -> Result<Picture, PictureError> {
-    let track = Track::new(poses)?;
-    let solid = Solid::new(subject)?;
-    let layout = Layout::new(&solid, &track, options)?;
+    let cast = Cast::alone(subject, poses)?;
+    let (solid, track) = cast.first();
+    let layout = Layout::new(&cast, options)?;
+    let backdrop = Backdrop::new(&options.stage, &layout)?;
     let instants = match options.interval {
-        Some(interval) => strobe::every(&track, interval),
-        None => strobe::instants(&track, options.max_instants, |times| {
-            crowded(&layout, &solid, &track, times)
+        Some(interval) => strobe::every(track, interval),
+        None => strobe::instants(track, options.max_instants, |times| {
+            crowded(&layout, solid, track, times)
         }),
     };
     let mut canvas = Canvas::new(layout.size)?;
@@ -370,34 +466,44 @@ fn picture(
     } else {
         Trail::None
     };
-    let arrows = velocity.map(|velocity| Arrows::new(&layout, options.ground, velocity));
+    let motion = Motion {
+        solid,
+        track,
+        instants: &instants,
+        trail,
+    };
+    let arrows = flow.map(|flow| Arrows::new(&layout, &options.stage, flow));
     for (number, panel) in layout.panels.iter().enumerate() {
-        axes::draw(&mut canvas, &layout, panel, &axes::Ticks::new(&layout));
-        if let Some(arrows) = &arrows {
-            arrows.draw(&mut canvas, &layout, number);
-        }
-        scene::draw(
-            &mut canvas,
-            &layout,
-            panel,
-            &solid,
-            &track,
-            &instants,
-            trail,
-        );
+        set(&mut canvas, &layout, number, arrows.as_ref());
+        scene::draw(&mut canvas, &layout, panel, &motion, &backdrop);
     }
-    let mut words = legend::caption(&layout, &instants);
-    if let Some(told) = arrows.as_ref().and_then(Arrows::caption) {
-        words = format!("{words}; {told}");
-    }
+    let words = told(legend::caption(&layout, &instants), arrows.as_ref());
     legend::draw_header(&mut canvas, &layout, options.title.as_deref(), &words);
-    legend::draw_legend(&mut canvas, &layout, &solid, &track, options.path);
+    legend::draw_legend(&mut canvas, &layout, &cast, options.path);
     Ok(Picture {
         size: layout.size,
         rgba: canvas.into_rgba(),
         times: instants.times,
         magnification: layout.magnification,
     })
+}
+
+/// Sets the stage of a panel, but for solids.
+fn set(canvas: &mut Canvas, layout: &Layout, number: usize, arrows: Option<&Arrows>) {
+    let panel = &layout.panels[number];
+    axes::draw(canvas, layout, panel, &axes::Ticks::new(layout));
+    if let Some(arrows) = arrows {
+        arrows.draw(canvas, layout, number);
+    }
+    backdrop::draw(canvas, layout, panel);
+}
+
+/// What is drawn, and what the arrows are.
+fn told(bodies: String, arrows: Option<&Arrows>) -> String {
+    match arrows.and_then(Arrows::caption) {
+        Some(arrows) => format!("{bodies}; {arrows}"),
+        None => bodies,
+    }
 }
 
 /// Bodies in line with one view may be well apart in the other, so the clearest panel decides.

@@ -20,6 +20,48 @@ pub(super) const UPPER_FACE: Colour = [247, 157, 48];
 pub(super) const LOWER_FACE: Colour = [38, 148, 168];
 pub(super) const RIM: Colour = [205, 208, 214];
 
+/// Water that is seen through, its surface; walls; what bodies meet.
+pub(super) const WATER: Colour = [74, 150, 214];
+pub(super) const WATER_LINE: Colour = [46, 118, 184];
+pub(super) const WALL: Colour = [120, 130, 146];
+pub(super) const STONE: Colour = [206, 199, 188];
+pub(super) const STONE_EDGE: Colour = [138, 128, 113];
+/// The paths of many bodies.
+pub(super) const FAINT_PATH: Colour = [203, 193, 228];
+
+/// What a solid is painted with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Paints {
+    /// The face on the positive side of the thin axis, the other, and the rim.
+    pub upper: Colour,
+    pub lower: Colour,
+    pub rim: Colour,
+    pub edge: Colour,
+}
+
+impl Paints {
+    /// The face whose normal makes an angle with cosine `side` with the thin axis.
+    pub(super) fn face(&self, side: f64) -> Colour {
+        if side > 0.0 { self.upper } else { self.lower }
+    }
+}
+
+/// Those of bodies.
+pub(super) const BODY: Paints = Paints {
+    upper: UPPER_FACE,
+    lower: LOWER_FACE,
+    rim: RIM,
+    edge: OUTLINE,
+};
+
+/// Those of what stays where it is.
+pub(super) const SCENERY: Paints = Paints {
+    upper: STONE,
+    lower: STONE,
+    rim: STONE,
+    edge: STONE_EDGE,
+};
+
 /// Colour of the path from start to end: light to dark, so that order in time reads in grey too.
 const PATH: [Colour; 4] = [
     [196, 181, 233],

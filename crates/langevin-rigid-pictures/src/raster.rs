@@ -4,9 +4,9 @@
 
 use std::ops::Range;
 
-use crate::canvas::{Canvas, Point};
+use crate::canvas::{Area, Canvas, Point};
 use crate::hull::Hull;
-use crate::palette::{Colour, LOWER_FACE, OUTLINE, PAGE, RIM, UPPER_FACE, mix};
+use crate::palette::{Colour, PAGE, Paints, mix};
 use crate::solid::Solid;
 use crate::vector::{Mat3, Vec3, add, dot, mat_vec, normalize, scale};
 
@@ -15,6 +15,8 @@ const SAMPLES: usize = 4;
 /// Pixels along a side of a tile: keeps the buffers in the cache, whatever the body's size.
 const TILE: usize = 128;
 const EMPTY: f32 = f32::NEG_INFINITY;
+/// Opacity of what something stands before, of 255.
+const VEILED: u32 = 90;
 /// Behind everything but in front of nothing: the depth of the clear border.
 const BORDER: f32 = f32::MIN;
 /// Directions of the light and halfway to the viewer, in right, up, toward the viewer.
@@ -34,6 +36,18 @@ pub(super) struct View<'a> {
     pub outline: f64,
     /// Width of the clear border outside the outline.
     pub border: f64,
+    /// How far outlines are drawn before the surface that they bound, pixels.
+    pub lift: f64,
+    pub paints: Paints,
+}
+
+/// What may stand before a solid; nothing by default.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Before<'a> {
+    /// Its triangles, their heights toward the viewer on the scale of `Panel::place`.
+    pub facets: &'a [Facet],
+    /// Height from which on it hides the solid's centre, pixels.
+    pub depth: f64,
 }
 
 impl View<'_> {
@@ -54,21 +68,51 @@ impl View<'_> {
         Hull::of(points.map(|[x, y, _]| [x, y])).grown(self.outline)
     }
 
-    pub(super) fn draw(&self, canvas: &mut Canvas) {
+    /// Draws what is within an area of the page; pale where it is behind what stands before it.
+    pub(super) fn draw(&self, canvas: &mut Canvas, room: &Area, before: Before<'_>) {
         let scene = Scene::new(self);
         let area = self.hull().area().grown(self.border + 1.0);
-        let pixel = |c: f64, limit: usize| (c.max(0.0) as usize).min(limit);
-        let size = canvas.size();
-        let low: [usize; 2] = std::array::from_fn(|i| pixel(area.low[i], size[i]));
-        let high: [usize; 2] = std::array::from_fn(|i| pixel(area.high[i].ceil(), size[i]));
+        let [low, high] = [area.low, area.high.map(f64::ceil)];
+        let pixel = |c: f64, i: usize| c.clamp(room.low[i], room.high[i]) as usize;
+        let low: [usize; 2] = std::array::from_fn(|i| pixel(low[i], i));
+        let high: [usize; 2] = std::array::from_fn(|i| pixel(high[i], i));
+        let veils = before.over(&area);
         for y in (low[1]..high[1]).step_by(TILE) {
             for x in (low[0]..high[0]).step_by(TILE) {
                 let size = [TILE.min(high[0] - x), TILE.min(high[1] - y)];
                 let mut tile = Tile::new([x, y], size);
                 scene.draw(&mut tile);
+                veils.iter().for_each(|veil| tile.triangle(veil, Act::Veil));
                 tile.resolve(canvas);
             }
         }
+    }
+
+    /// The triangles that are seen, if the solid's centre is so high toward the viewer, pixels.
+    pub(super) fn facets(&self, depth: f64) -> Vec<Facet> {
+        let samples = |[x, y, z]: Vec3| scale(SAMPLES as f64, [x, y, z + depth]);
+        let points: Vec<Vec3> = self.points().into_iter().map(samples).collect();
+        facets(self, &points)
+    }
+}
+
+impl Before<'_> {
+    /// The triangles over an area of the page, their heights above `depth`.
+    fn over(&self, area: &Area) -> Vec<Facet> {
+        let samples = SAMPLES as f64;
+        let meets = |facet: &&Facet| {
+            (0..2).all(|i| {
+                let along = facet.corners.map(|corner| corner[i] / samples);
+                along.iter().any(|c| *c <= area.high[i]) && along.iter().any(|c| *c >= area.low[i])
+            })
+        };
+        let moved = |facet: &Facet| Facet {
+            corners: facet
+                .corners
+                .map(|[x, y, z]| [x, y, z - samples * self.depth]),
+            ..*facet
+        };
+        self.facets.iter().filter(meets).map(moved).collect()
     }
 }
 
@@ -79,10 +123,13 @@ struct Scene {
     border: f64,
 }
 
-struct Facet {
+/// A triangle as a panel sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facet {
     corners: [Vec3; 3],
     normals: [Vec3; 3],
     thin_axis: Vec3,
+    paints: Paints,
 }
 
 struct Line {
@@ -104,7 +151,7 @@ impl Scene {
 
     fn draw(&self, tile: &mut Tile) {
         for facet in &self.triangles {
-            tile.triangle(facet);
+            tile.triangle(facet, Act::Paint);
         }
         for line in &self.lines {
             tile.line(&line.ends, line.half_width, |old, z| {
@@ -133,6 +180,7 @@ fn facets(view: &View<'_>, points: &[Vec3]) -> Vec<Facet> {
             corners: [points[a], points[b], points[c]],
             normals: [normal(na), normal(nb), normal(nc)],
             thin_axis,
+            paints: view.paints,
         })
     };
     (0..view.solid.triangles.len()).filter_map(facet).collect()
@@ -175,22 +223,29 @@ fn line(view: &View<'_>, ends: [Vec3; 2], bounds: bool, side: f64) -> Line {
     let [right, up, _] = mat_vec(&view.rotation, view.solid.thin_axis);
     let tilt = (right * right + up * up).sqrt();
     let flat = ((side.abs() - 0.3) / 0.4).clamp(0.0, 1.0).copysign(side);
-    let face = if side > 0.0 { UPPER_FACE } else { LOWER_FACE };
+    let face = view.paints.face(side);
     // Over the surface the line runs on, which rises toward the viewer beside it.
-    let lift = width + samples * 0.01 * view.solid.radius * view.magnified_scale;
+    let lift = width + samples * view.lift;
     let apart = 0.5 * width * flat;
     Line {
         ends: ends.map(|p| add(p, [apart * right, -apart * up, lift])),
         half_width: 0.5 * width,
-        colour: mix(OUTLINE, face, flat.abs() * (0.15 + 0.65 * tilt * tilt)),
+        colour: mix(
+            view.paints.edge,
+            face,
+            flat.abs() * (0.15 + 0.65 * tilt * tilt),
+        ),
     }
 }
 
 /// The colour of a surface with unit normal `normal`, which makes an angle with cosine `side`
 /// with the body's thin axis.
-fn shade(normal: Vec3, side: f64) -> Colour {
-    let face = if side > 0.0 { UPPER_FACE } else { LOWER_FACE };
-    let base = mix(RIM, face, ((side.abs() - 0.06) / 0.08).clamp(0.0, 1.0));
+fn shade(paints: &Paints, normal: Vec3, side: f64) -> Colour {
+    let base = mix(
+        paints.rim,
+        paints.face(side),
+        ((side.abs() - 0.06) / 0.08).clamp(0.0, 1.0),
+    );
     let lit = 0.56 + 0.46 * dot(normal, LIGHT).max(0.0) + 0.04 * normal[2];
     let glint = dot(normal, HALFWAY).max(0.0);
     let glint = (0..5).fold(glint, |g, _| g * g);
@@ -205,6 +260,17 @@ struct Tile {
     size: [usize; 2],
     depth: Vec<f32>,
     colour: Vec<Colour>,
+    /// Whether something stands before it.
+    veiled: Vec<bool>,
+}
+
+/// What a triangle does to the samples that it is before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Act {
+    /// It hides them.
+    Paint,
+    /// It makes them pale.
+    Veil,
 }
 
 impl Tile {
@@ -215,6 +281,7 @@ impl Tile {
             size,
             depth: vec![EMPTY; samples],
             colour: vec![PAGE; samples],
+            veiled: vec![false; samples],
         }
     }
 
@@ -229,7 +296,7 @@ impl Tile {
         )
     }
 
-    fn triangle(&mut self, facet: &Facet) {
+    fn triangle(&mut self, facet: &Facet, act: Act) {
         let Some(plane) = Barycentric::new(&facet.corners) else {
             return;
         };
@@ -245,7 +312,7 @@ impl Tile {
             |axis: usize| samples[axis].start / SAMPLES..samples[axis].end.div_ceil(SAMPLES);
         for y in pixels(1) {
             for x in pixels(0) {
-                self.triangle_pixel(facet, &plane, &samples, [x, y]);
+                self.triangle_pixel(facet, act, &plane, &samples, [x, y]);
             }
         }
     }
@@ -254,6 +321,7 @@ impl Tile {
     fn triangle_pixel(
         &mut self,
         facet: &Facet,
+        act: Act,
         plane: &Barycentric,
         samples: &[Range<usize>; 2],
         pixel: [usize; 2],
@@ -278,7 +346,12 @@ impl Tile {
                 let index = row * self.size[0] * SAMPLES + column;
                 let z = dot(weights, plane.heights) as f32;
                 // A little generous, so that no sample falls between two triangles.
-                if weights.iter().all(|w| *w >= -1e-9) && z > self.depth[index] {
+                if !weights.iter().all(|w| *w >= -1e-9) || z <= self.depth[index] {
+                    continue;
+                }
+                if act == Act::Veil {
+                    self.veiled[index] = true;
+                } else {
                     self.depth[index] = z;
                     self.colour[index] = *colour.get_or_insert_with(|| facet.colour(middle));
                 }
@@ -339,10 +412,11 @@ impl Tile {
             let start = (row * self.size[0] + x) * SAMPLES;
             for index in start..start + SAMPLES {
                 if self.depth[index] > EMPTY {
+                    let opacity = if self.veiled[index] { VEILED } else { 255 };
                     for (channel, value) in sum.iter_mut().zip(self.colour[index]) {
-                        *channel += u32::from(value);
+                        *channel += u32::from(value) * opacity / 255;
                     }
-                    sum[3] += 255;
+                    sum[3] += opacity;
                 }
             }
         }
@@ -356,7 +430,7 @@ impl Facet {
     fn colour(&self, weights: Vec3) -> Colour {
         let mean = |n: Vec3, i: usize| add(n, scale(weights[i].max(0.0), self.normals[i]));
         let normal = normalize((0..3).fold([0.0; 3], mean));
-        shade(normal, dot(normal, self.thin_axis))
+        shade(&self.paints, normal, dot(normal, self.thin_axis))
     }
 }
 

@@ -1,5 +1,6 @@
 //! What moves: the path and the bodies at their instants, painted from far to near.
 
+use crate::backdrop::{Backdrop, slack};
 use crate::camera::Direction;
 use crate::canvas::{Area, Canvas, Point};
 use crate::hull::Hull;
@@ -7,7 +8,7 @@ use crate::labels::{self, Obstacles};
 use crate::layout::{Layout, Panel};
 use crate::palette::{PAGE, path as path_colour};
 use crate::placement::Placement;
-use crate::raster::View;
+use crate::raster::{Before, Facet, View};
 use crate::shadows;
 use crate::solid::Solid;
 use crate::strobe::Instants;
@@ -63,16 +64,29 @@ pub(super) enum Trail {
     Until(f64),
 }
 
-/// Draws path and bodies in one panel.
+/// What is drawn of a body's motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion<'a> {
+    pub solid: &'a Solid,
+    pub track: &'a Track<'a>,
+    pub instants: &'a Instants,
+    pub trail: Trail,
+}
+
+/// Draws path and bodies in one panel, and the solids between their shadows and them.
 pub(super) fn draw(
     canvas: &mut Canvas,
     layout: &Layout,
     panel: &Panel,
-    solid: &Solid,
-    track: &Track<'_>,
-    instants: &Instants,
-    trail: Trail,
+    motion: &Motion<'_>,
+    backdrop: &Backdrop,
 ) {
+    let Motion {
+        solid,
+        track,
+        instants,
+        trail,
+    } = *motion;
     let bodies: Vec<Body<'_>> = instants
         .times
         .iter()
@@ -85,7 +99,8 @@ pub(super) fn draw(
         let path: Vec<[f64; 3]> = places.iter().map(|p| p.world).collect();
         shadows::draw(canvas, layout, panel, solid, &placements, &path);
     }
-    paint(canvas, layout, &pieces, &bodies);
+    let scenery = backdrop.draw(canvas, layout, panel);
+    paint(canvas, layout, panel, &pieces, &bodies, &scenery);
     if let Trail::Until(_) = trail {
         return;
     }
@@ -238,7 +253,14 @@ fn height_in([a, b, c]: [[f64; 3]; 3], [x, y]: Point) -> Option<f64> {
     inside.then(|| (wa * a[2] + wb * b[2] + wc * c[2]) / area)
 }
 
-fn paint(canvas: &mut Canvas, layout: &Layout, pieces: &[Piece], bodies: &[Body<'_>]) {
+fn paint(
+    canvas: &mut Canvas,
+    layout: &Layout,
+    panel: &Panel,
+    pieces: &[Piece],
+    bodies: &[Body<'_>],
+    scenery: &[Facet],
+) {
     let mut items: Vec<(f64, Item<'_, '_>)> = pieces
         .iter()
         .map(|p| (p.depth, Item::Piece(p)))
@@ -248,7 +270,13 @@ fn paint(canvas: &mut Canvas, layout: &Layout, pieces: &[Piece], bodies: &[Body<
     items.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, item) in items {
         match item {
-            Item::Body(body) => body.view.draw(canvas),
+            Item::Body(body) => {
+                let before = Before {
+                    facets: scenery,
+                    depth: body.depth + slack(layout, body.view.solid.radius),
+                };
+                body.view.draw(canvas, &panel.plot, before);
+            }
             Item::Piece(piece) => {
                 let width = PATH_WIDTH * layout.unit;
                 let border = width + 2.0 * PATH_BORDER * layout.unit;

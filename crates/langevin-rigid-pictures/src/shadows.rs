@@ -20,24 +20,50 @@ pub(super) fn draw(
     bodies: &[Placement],
     path: &[Vec3],
 ) {
-    let floor = floor(layout);
-    let height = (layout.bounds.high[1] - floor).max(f64::MIN_POSITIVE);
-    let fall = |[x, _, z]: Vec3| {
-        let [x, y, _] = panel.place([x, floor, z]);
-        [x, y]
-    };
     for body in bodies {
-        let centre = body.to_world(solid.centre);
-        let strength = 0.22 - 0.16 * ((centre[1] - floor) / height).clamp(0.0, 1.0);
-        let cast = |v: &Vec3| {
-            let offset = scale(layout.magnification, mat_vec(&body.rotation, *v));
-            fall(add(centre, offset))
-        };
-        let hull = convex_hull(solid.vertices.iter().map(cast).collect());
-        draw_one(canvas, &hull, fall(centre), strength);
+        cast(canvas, layout, panel, solid, 1.0, body);
     }
-    let track: Vec<Point> = path.iter().map(|p| fall(*p)).collect();
-    canvas.line(&track, 1.2 * layout.unit, FRAME);
+    let reach = layout.magnification * solid.radius;
+    // It is in two parts where the body goes into water.
+    let floor = |p: &Vec3| under(layout, *p, reach);
+    for part in path.chunk_by(|a, b| floor(a) == floor(b)) {
+        let track = part.iter().map(|p| fall(panel, *p, floor(p)));
+        let track: Vec<Point> = track.collect();
+        canvas.line(&track, 1.2 * layout.unit, FRAME);
+    }
+}
+
+/// The shadow of one body of so many times its kind's size.
+pub(super) fn cast(
+    canvas: &mut Canvas,
+    layout: &Layout,
+    panel: &Panel,
+    solid: &Solid,
+    size: f64,
+    body: &Placement,
+) {
+    let centre = body.to_world(scale(size, solid.centre));
+    let reach = size * layout.magnification * solid.radius;
+    let floor = under(layout, centre, reach);
+    let height = (layout.bounds.high[1] - floor).max(f64::MIN_POSITIVE);
+    let strength = 0.22 - 0.16 * ((centre[1] - floor) / height).clamp(0.0, 1.0);
+    let cast = |v: &Vec3| {
+        let offset = scale(size * layout.magnification, mat_vec(&body.rotation, *v));
+        fall(panel, add(centre, offset), floor)
+    };
+    let hull = convex_hull(solid.vertices.iter().map(cast).collect());
+    draw_one(canvas, &hull, fall(panel, centre, floor), strength);
+}
+
+/// The height on which a body of radius `reach` casts its shadow: the water if it is not all under that.
+fn under(layout: &Layout, [_, height, _]: Vec3, reach: f64) -> f64 {
+    let water = layout.water.filter(|level| height + reach >= *level);
+    water.unwrap_or_else(|| floor(layout))
+}
+
+fn fall(panel: &Panel, [x, _, z]: Vec3, floor: f64) -> Point {
+    let [x, y, _] = panel.place([x, floor, z]);
+    [x, y]
 }
 
 fn draw_one(canvas: &mut Canvas, outline: &[Point], foot: Point, strength: f64) {

@@ -42,7 +42,7 @@ pub(super) struct Solid {
 
 impl Solid {
     pub(super) fn new(subject: &Subject<'_>) -> Result<Self, PictureError> {
-        check(subject)?;
+        Self::check(subject)?;
         let (vertices, triangles) = weld(subject);
         let triangles = without_slivers(triangles);
         let centre = box_centre(&vertices);
@@ -69,21 +69,22 @@ impl Solid {
             face_normals,
         })
     }
-}
 
-fn check(subject: &Subject<'_>) -> Result<(), PictureError> {
-    if subject.triangles.is_empty() {
-        return Err(PictureError::NoTriangles);
-    }
-    let bad = |v: &[f64; 3]| !v.iter().all(|c| c.abs() < 1e12);
-    if let Some(index) = subject.vertices.iter().position(bad) {
-        return Err(PictureError::BadVertex { index });
-    }
-    let vertices = subject.vertices.len();
-    let outside = |t: &[u32; 3]| t.iter().any(|&v| v as usize >= vertices);
-    match subject.triangles.iter().position(outside) {
-        Some(index) => Err(PictureError::BadTriangle { index, vertices }),
-        None => Ok(()),
+    /// Whether a mesh can be drawn.
+    pub(super) fn check(subject: &Subject<'_>) -> Result<(), PictureError> {
+        if subject.triangles.is_empty() {
+            return Err(PictureError::NoTriangles);
+        }
+        let bad = |v: &[f64; 3]| !v.iter().all(|c| c.abs() < 1e12);
+        if let Some(index) = subject.vertices.iter().position(bad) {
+            return Err(PictureError::BadVertex { index });
+        }
+        let vertices = subject.vertices.len();
+        let outside = |t: &[u32; 3]| t.iter().any(|&v| v as usize >= vertices);
+        match subject.triangles.iter().position(outside) {
+            Some(index) => Err(PictureError::BadTriangle { index, vertices }),
+            None => Ok(()),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid_pictures::{
-    PictureOptions, Pose, Subject, View, picture_in_flow, trajectory_picture,
+    PictureOptions, Pose, Stage, Subject, View, picture_in_flow, trajectory_picture,
 };
 
 #[test]
@@ -24,7 +24,10 @@ fn arrows_are_where_the_fluid_moves_and_nowhere_else() {
     let poses: Vec<Pose> = (0..=100).map(|k| pose(0.01 * f64::from(k))).collect();
     let options = PictureOptions {
         view: View::Front,
-        ground: Some(0.0),
+        stage: Stage {
+            ground: Some(0.0),
+            ..Stage::default()
+        },
         ..PictureOptions::default()
     };
     let bare = trajectory_picture(&sheet, &poses, &options).unwrap();

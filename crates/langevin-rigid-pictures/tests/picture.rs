@@ -7,7 +7,7 @@
 
 use langevin_rigid_formats::track::TrackError;
 use langevin_rigid_pictures::{
-    Film, Picture, PictureError, PictureOptions, Pose, Subject, View, trajectory_picture,
+    Film, Picture, PictureError, PictureOptions, Pose, Stage, Subject, View, trajectory_picture,
 };
 
 const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -78,8 +78,7 @@ fn differences(a: &Picture, b: &Picture) -> Vec<[usize; 2]> {
 fn body_pixels(subject: &Subject<'_>, poses: &[Pose], options: &PictureOptions) -> Vec<[usize; 2]> {
     let alone = PictureOptions {
         max_instants: 0,
-        title: options.title.clone(),
-        ..*options
+        ..options.clone()
     };
     // The caption tells of the bodies too: leave out its rows.
     let caption_rows = 80;
@@ -200,7 +199,10 @@ fn a_speck_is_magnified_and_a_large_body_is_not() {
 #[test]
 fn the_ground_is_drawn_where_the_motion_comes_near_it() {
     let with = |ground| PictureOptions {
-        ground,
+        stage: Stage {
+            ground,
+            ..Stage::default()
+        },
         ..seen(View::Front)
     };
     let without = draw(&SHEET, &descent(), &with(None));

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use langevin_rigid::{Ending, Model, State, Stepper, TurbulenceSource, UnitSystem};
 use langevin_rigid_bake::progress::{Progress, Silent};
 use langevin_rigid_pictures::{
-    Picture, PictureOptions, Pose, Subject, View, picture_in_flow, trajectory_picture,
+    Picture, PictureOptions, Pose, Stage, Subject, View, picture_in_flow, trajectory_picture,
 };
 use langevin_rigid_scenes::baking::{self, Baked};
 use langevin_rigid_scenes::prepared::Prepared;
@@ -181,7 +181,10 @@ impl Setting {
         let options = PictureOptions {
             title: Some(title),
             view,
-            ground: self.scene.stop.ground,
+            stage: Stage {
+                ground: self.scene.stop.ground,
+                ..Stage::default()
+            },
             interval,
             ..PictureOptions::default()
         };

@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let options = PictureOptions {
         title: Some(prepared.scene().description.clone()),
-        ground: prepared.scene().stop.ground,
+        stage: prepared.stage(),
         ..PictureOptions::default()
     };
     let picture = trajectory_picture(&card, &trajectory.poses, &options)?;

@@ -82,4 +82,5 @@ pub mod look;
 pub mod prepared;
 pub mod regimes;
 pub mod scene;
+mod stage;
 pub mod together;

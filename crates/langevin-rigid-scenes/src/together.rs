@@ -17,6 +17,9 @@ pub use surroundings::{CrowdBody, Surroundings, SurroundingsError};
 /// Of many bodies the states are kept so often (Hz): several of any frame of a film.
 const KEPT: f64 = 240.0;
 
+/// Moves that make room for a body; the last ones are thousands of its radii long.
+const MOST_MOVES: u32 = 100;
+
 /// Steps between two looks at whether to go on.
 const PATIENCE: u64 = 16;
 
@@ -124,7 +127,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Carries what is carried, and lets the first ones go.
+    /// Lets the first ones go.
     fn begin(&mut self) -> Result<(), TogetherError> {
         self.let_go();
         let first = 0..self.world.len();
@@ -249,11 +252,18 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Moves a body up until it is in no other.
+/// Moves a body up until it is in no other, by ever longer steps; leaves it where it was if that does not help.
 fn make_room(world: &mut World, body: usize, radius: f64) {
-    while world.overlap(body).is_some() {
-        let mut state = *world.state(body);
-        state.position[1] += 0.5 * radius;
+    let first = *world.state(body);
+    let mut state = first;
+    let mut up = 0.5 * radius;
+    for _ in 0..MOST_MOVES {
+        if world.overlap(body).is_none() {
+            return;
+        }
+        state.position[1] += up;
+        up *= 1.1;
         world.set_state(body, &state);
     }
+    world.set_state(body, &first);
 }

@@ -240,6 +240,10 @@ fn impossible_worlds_are_told() {
             "its `unit` of length",
         ),
         ("[water]\nwaves = { height = 0.1 }", "the `period` (s)"),
+        (
+            "[water]\nwaves = { height = 1.0, period = 0.5 }",
+            "break where they are higher",
+        ),
         ("[crowd]", "its `count`"),
         ("[crowd]\ncount = 0", "between 1 and 100000"),
         ("[crowd]\ncount = 3\nsizes = [2.0, 1.0]", "exchange them"),

@@ -1,5 +1,6 @@
 //! What a body meets in a scene besides its fluid: how it touches, obstacles, water.
 
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use langevin_rigid::Fluid;
@@ -300,7 +301,10 @@ pub(super) fn water(
     let current = current
         .map(|v| doc.numbers(v, "current", SPEED))
         .transpose()?;
-    let waves = given.waves.as_ref().map(|waves| sea(doc, waves));
+    let waves = given
+        .waves
+        .as_ref()
+        .map(|waves| sea(doc, waves, -gravity[1]));
     Ok(SceneWater {
         level: doc.given(&given.level, "level", PLACE)?.unwrap_or(0.0),
         fluid: surroundings::fluid(doc, &Spanned::new(raw.span(), fluid))?,
@@ -309,7 +313,8 @@ pub(super) fn water(
     })
 }
 
-fn sea(doc: &Document, raw: &Spanned<RawWaves>) -> Result<SceneWaves, SceneError> {
+/// Refuses waves that would break. `gravity` is its magnitude (m/s^2).
+fn sea(doc: &Document, raw: &Spanned<RawWaves>, gravity: f64) -> Result<SceneWaves, SceneError> {
     let RawWaves {
         height,
         period,
@@ -319,9 +324,20 @@ fn sea(doc: &Document, raw: &Spanned<RawWaves>) -> Result<SceneWaves, SceneError
     let missing = |what: &str| doc.error(raw.span(), format!("`waves` need {what}"));
     let height = doc.given(height, "height", HOLE)?;
     let period = doc.given(period, "period", DURATION)?;
+    let height = height.ok_or_else(|| missing("their significant `height` (m)"))?;
+    let period = period.ok_or_else(|| missing("the `period` (s) of the strongest"))?;
+    // Michell 1893: the highest wave on deep water.
+    let highest = 0.142 * gravity * period * period / TAU;
+    if height > highest {
+        let message = format!(
+            "`waves` of {period} s break where they are higher than {highest:.3e} m, and these are {height} m high: lower \
+             the `height` or lengthen the `period`"
+        );
+        return Err(doc.error(raw.span(), message));
+    }
     Ok(SceneWaves {
-        height: height.ok_or_else(|| missing("their significant `height` (m)"))?,
-        period: period.ok_or_else(|| missing("the `period` (s) of the strongest"))?,
+        height,
+        period,
         heading: doc.given(heading, "heading", ANGLE)?.unwrap_or(0.0),
         seed: seed.as_ref().map(|seed| seed.get_ref().0),
     })

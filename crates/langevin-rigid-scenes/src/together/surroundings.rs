@@ -9,6 +9,7 @@ use langevin_rigid::wind::Wind;
 use langevin_rigid::{Bake, SetupError};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_formats::mesh::{ReadError, read_mesh};
+use langevin_rigid_pictures::Scenery;
 use langevin_rigid_world::water::{Immersion, ImmersionError, Sea, WaterError, WaterSurface};
 use langevin_rigid_world::{
     Kind, MaterialError, Obstacle, ObstacleError, Overlap, Shape, ShapeError, World,
@@ -19,6 +20,7 @@ use crate::scene::{
     Contact, ContactShape, FindError, OWN, ObstacleGeometry, Scene, SceneObstacle, SceneWater,
     SceneWindError, find,
 };
+use crate::stage::cuboid;
 
 /// A world without bodies, and the bodies that may be let go in it.
 #[derive(Debug, Clone)]
@@ -27,6 +29,8 @@ pub struct Surroundings {
     world: World,
     /// What each obstacle of the world is.
     names: Vec<String>,
+    /// What pictures show of them: boxes and meshes.
+    scenery: Vec<Scenery>,
     kinds: Vec<CrowdBody>,
 }
 
@@ -124,6 +128,7 @@ impl Surroundings {
             scene: scene.clone(),
             world: World::new(scene.settings.gravity),
             names: Vec::new(),
+            scenery: Vec::new(),
             kinds: Vec::new(),
         };
         // Each kind brings its wind.
@@ -156,6 +161,11 @@ impl Surroundings {
     /// The kinds of bodies; the scene's own is the first.
     pub fn kinds(&self) -> &[CrowdBody] {
         &self.kinds
+    }
+
+    /// The surfaces of boxes and meshes that stand in the way.
+    pub(crate) fn scenery(&self) -> &[Scenery] {
+        &self.scenery
     }
 
     /// The scene's own kind of bodies.
@@ -253,6 +263,9 @@ impl Surroundings {
                 orientation,
             } => match Shape::cuboid(size.map(|side| 0.5 * side)) {
                 Ok(shape) => {
+                    let mut drawn = cuboid(*size);
+                    drawn.vertices = placed(&drawn.vertices, *position, *orientation);
+                    self.scenery.push(drawn);
                     let placed = Obstacle::shape(shape, *position, *orientation, material);
                     self.add(what, placed)
                 }
@@ -271,6 +284,10 @@ impl Surroundings {
                     true => Obstacle::mesh(&vertices, &mesh.triangles, material),
                     false => Obstacle::terrain(&vertices, &mesh.triangles, material),
                 };
+                self.scenery.push(Scenery {
+                    vertices,
+                    triangles: mesh.triangles,
+                });
                 self.add(format!("{what} (`{}`)", path.display()), made)
             }
         }

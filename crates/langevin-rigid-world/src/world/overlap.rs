@@ -1,5 +1,7 @@
 //! Which bodies are inside something.
 
+use langevin_rigid::linalg::vector::{norm, sub};
+
 use super::World;
 use super::near::{Met, bounds};
 
@@ -24,6 +26,9 @@ impl World {
         let here = bounds(&self.members[body]);
         let mut met = self.obstacles_met(body, &here, 0.0);
         for other in (0..self.members.len()).filter(|other| *other != body) {
+            if self.is_far(body, other) {
+                continue;
+            }
             met.extend(self.bodies_met((other.min(body), other.max(body)), 0.0));
         }
         let (depth, met) = met
@@ -39,6 +44,15 @@ impl World {
             },
             depth,
         })
+    }
+}
+
+impl World {
+    /// Whether two bodies are farther apart than both reach.
+    fn is_far(&self, a: usize, b: usize) -> bool {
+        let (a, b) = (&self.members[a], &self.members[b]);
+        let apart = norm(sub(a.state.position, b.state.position));
+        apart > a.kind.shape().radius() + b.kind.shape().radius()
     }
 }
 
