@@ -30,6 +30,9 @@ pub enum TogetherError {
     /// A body begins inside something.
     #[error(transparent)]
     Inside(#[from] Overlap),
+    /// A body of a crowd found no room.
+    #[error("the [crowd] has no room: {0}, by a larger `over` or a longer `during`")]
+    Crowded(Overlap),
     /// A body of another size is none.
     #[error(transparent)]
     Size(#[from] SurroundingsError),
@@ -133,6 +136,9 @@ impl<'a> Run<'a> {
         let first = 0..self.world.len();
         let overlap = first.into_iter().find_map(|body| self.world.overlap(body));
         match overlap {
+            Some(overlap) if self.scene.crowd.is_some() => {
+                Err(TogetherError::Crowded(self.surroundings.named(overlap)))
+            }
             Some(overlap) => Err(self.surroundings.named(overlap).into()),
             None => Ok(()),
         }
