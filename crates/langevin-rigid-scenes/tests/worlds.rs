@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid::{Ending, State};
-use langevin_rigid_scenes::ensemble::{self, Statistics};
+use langevin_rigid_scenes::ensemble::{self, FallEnding, Statistics};
 use langevin_rigid_scenes::prepared::{Fall, Prepared};
 use langevin_rigid_scenes::scene::{Scene, find};
 use langevin_rigid_scenes::together::TogetherError;
@@ -151,6 +151,30 @@ fn coins_lie_in_their_glass_with_either_face_up() {
     assert!(faces.up >= 8 && faces.down >= 8, "{faces:?}");
     let table = ensemble::landings_csv(&falls);
     assert!(table.starts_with("run,t,x,z,depth,ending,motion,turnovers,swings,lying_t,"));
+}
+
+#[test]
+fn a_body_may_come_to_rest_without_the_ground() {
+    let text = r#"
+        fluid.preset = "air"
+        body = { shape = "box", size = [0.1, 0.02, 0.1], density = 500.0 }
+        release.position = [0.0, 0.7, 0.0]
+        run = { time_step = 0.002, duration = 8.0 }
+        [[obstacle]]
+        shape = "box"
+        size = [0.5, 0.2, 0.5]
+        position = [0.0, 0.5, 0.0]
+    "#;
+    let table = prepared(Scene::parse("table", "table.toml", text).unwrap());
+    let falls = ensemble::run(&table, 0..2, &());
+    for fall in &falls {
+        assert_eq!(fall.ending, FallEnding::Rest);
+        // The top of the table is 10 cm below the release, and half of the 2 cm of the body lies between.
+        assert!(
+            (fall.lying.unwrap().place[1] - 0.09).abs() < 1e-3,
+            "{fall:?}"
+        );
+    }
 }
 
 #[test]

@@ -26,6 +26,8 @@ pub enum FallEnding {
     Ground,
     /// The time was up, or the steps were: [`MAX_STEPS`](crate::scene::MAX_STEPS).
     Time,
+    /// The body came to rest without the ground: on an obstacle, or afloat.
+    Rest,
     /// A step failed, for this reason.
     Diverged(String),
 }
@@ -36,6 +38,7 @@ impl FallEnding {
         match self {
             Self::Ground => "ground",
             Self::Time => "time",
+            Self::Rest => "rest",
             Self::Diverged(_) => "diverged",
         }
     }

@@ -66,7 +66,7 @@ pub(super) fn fall_in_world(
             break FallEnding::Time;
         }
         if world.is_still(body) {
-            break FallEnding::Ground;
+            break FallEnding::Rest;
         }
         if let Err(error) = world.step(scene.time_step) {
             break FallEnding::Diverged(error.error.to_string());
@@ -79,7 +79,7 @@ pub(super) fn fall_in_world(
         }
     };
     let last = own(&world);
-    let lying = matches!(ending, FallEnding::Ground).then(|| Lying {
+    let lying = matches!(ending, FallEnding::Rest).then(|| Lying {
         time: last.time,
         place: relative(last.position, scene.release.position),
         up: rotate(last.orientation, thin_axis)[1],
@@ -87,7 +87,7 @@ pub(super) fn fall_in_world(
     let ending = match (&landed, ending) {
         (_, FallEnding::Diverged(words)) => FallEnding::Diverged(words),
         (Some(_), _) => FallEnding::Ground,
-        (None, _) => FallEnding::Time,
+        (None, ending) => ending,
     };
     let end = landed.unwrap_or(last);
     Fall {
