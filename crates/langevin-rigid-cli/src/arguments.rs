@@ -94,8 +94,9 @@ pub(crate) struct Simulate {
     /// Write a film into this folder as frame-00001.png, frame-00002.png, ...
     #[arg(long, value_name = "DIR")]
     pub(crate) frames: Option<PathBuf>,
-    /// Bodies to drop side by side, scattered as the scene says; they do not meet. Picture, film and
-    /// summary are of the first.
+    /// Bodies to drop: of a scene's [crowd] so many in place of its count, else side by side, scattered as the scene says.
+    /// They meet where the scene is a world (docs/worlds.md); where it is none, picture and film are of the first. The summary
+    /// is always of the first.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) bodies: u32,
     #[arg(
