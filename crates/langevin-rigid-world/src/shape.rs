@@ -1,6 +1,7 @@
 //! Shapes that touch: convex hulls, one for a convex body, several for one that is not.
 
 mod hull;
+mod lanes;
 
 use langevin_rigid::Body;
 use langevin_rigid::linalg::Vec3;

@@ -4,7 +4,6 @@ use arrayvec::ArrayVec;
 use parry3d_f64::math::{Pose, Vec2, Vector};
 use parry3d_f64::query::details::contact_support_map_support_map_with_params;
 use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
-use parry3d_f64::shape::SupportMap;
 
 use super::overlap::{Polygon, overlap};
 use super::{MOST_POINTS, Patch, Point};
@@ -150,11 +149,11 @@ fn nearest(a: Placed<'_>, b: Placed<'_>, reach: f64, guess: Option<Vector>) -> O
     let mut b_in_a = a.pose.inv_mul(&b.pose);
     b_in_a.translation *= factor;
     let of_a = Scaled {
-        points: &a.hull.points,
+        hull: a.hull,
         factor,
     };
     let of_b = Scaled {
-        points: &b.hull.points,
+        hull: b.hull,
         factor,
     };
     let found = contact_support_map_support_map_with_params(
@@ -183,11 +182,7 @@ fn nearest(a: Placed<'_>, b: Placed<'_>, reach: f64, guess: Option<Vector>) -> O
 fn along(a: Placed<'_>, b: Placed<'_>, normal: Vector) -> Nearest {
     let farthest = |placed: Placed<'_>, direction: Vector| {
         let towards = placed.pose.rotation.inverse() * direction;
-        let points = Scaled {
-            points: &placed.hull.points,
-            factor: 1.0,
-        };
-        placed.pose * points.local_support_point(towards)
+        placed.pose * placed.hull.farthest(towards)
     };
     let (on_a, on_b) = (farthest(a, normal), farthest(b, -normal));
     Nearest {

@@ -5,6 +5,7 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::shape::{ConvexPolyhedron, SupportMap};
 
 use super::ShapeError;
+use super::lanes::Lanes;
 
 /// Corners that stand for the outline of a face where it is cut with another's: a coin needs no more.
 pub(crate) const OUTLINE: usize = 12;
@@ -14,6 +15,7 @@ pub(crate) const OUTLINE: usize = 12;
 pub(crate) struct Hull {
     /// Its corners (m).
     pub(crate) points: Vec<Vector>,
+    lanes: Lanes,
     faces: Vec<Face>,
 }
 
@@ -51,20 +53,24 @@ impl Hull {
                 outline: outline(&all),
             }
         });
-        Ok(Self {
-            points: corners.iter().map(|p| *p * size).collect(),
-            faces: faces.collect(),
-        })
+        let faces = faces.collect();
+        Ok(Self::of(corners.iter().map(|p| *p * size).collect(), faces))
     }
 
     /// A triangle, with its front as the only face.
     pub(crate) fn of_triangle(corners: [Vector; 3], normal: Vector) -> Self {
+        let front = Face {
+            normal,
+            outline: corners.to_vec(),
+        };
+        Self::of(corners.to_vec(), vec![front])
+    }
+
+    fn of(points: Vec<Vector>, faces: Vec<Face>) -> Self {
         Self {
-            points: corners.to_vec(),
-            faces: vec![Face {
-                normal,
-                outline: corners.to_vec(),
-            }],
+            lanes: Lanes::new(&points),
+            points,
+            faces,
         }
     }
 
@@ -73,10 +79,15 @@ impl Hull {
             normal: face.normal,
             outline: face.outline.iter().map(|p| *p * factor).collect(),
         };
-        Self {
-            points: self.points.iter().map(|p| *p * factor).collect(),
-            faces: self.faces.iter().map(face).collect(),
-        }
+        Self::of(
+            self.points.iter().map(|p| *p * factor).collect(),
+            self.faces.iter().map(face).collect(),
+        )
+    }
+
+    /// The corner that is farthest along `direction`.
+    pub(crate) fn farthest(&self, direction: Vector) -> Vector {
+        self.points[self.lanes.farthest(direction)]
     }
 
     /// The face that looks most along `direction`.
@@ -99,22 +110,14 @@ fn outline(all: &[Vector]) -> Vec<Vector> {
     (0..kept).map(|i| all[i * all.len() / kept]).collect()
 }
 
-/// Points in another unit of length.
+/// A hull in another unit of length.
 pub(crate) struct Scaled<'a> {
-    pub(crate) points: &'a [Vector],
+    pub(crate) hull: &'a Hull,
     pub(crate) factor: f64,
 }
 
 impl SupportMap for Scaled<'_> {
     fn local_support_point(&self, direction: Vector) -> Vector {
-        let mut best = self.points[0];
-        let mut most = f64::NEG_INFINITY;
-        for point in self.points {
-            let along = point.dot(direction);
-            if along > most {
-                (best, most) = (*point, along);
-            }
-        }
-        best * self.factor
+        self.hull.farthest(direction) * self.factor
     }
 }
