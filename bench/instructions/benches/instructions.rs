@@ -80,8 +80,8 @@ fn about(counted: u64) -> LibraryBenchmarkConfig {
 
 // 100 steps of one body.
 #[library_benchmark]
-#[bench::consistent(args = (Model::Consistent), setup = stepper, config = about(364_536))]
-#[bench::separated(args = (Model::Separated), setup = stepper, config = about(847_199))]
+#[bench::consistent(args = (Model::Consistent), setup = stepper, config = about(350_435))]
+#[bench::separated(args = (Model::Separated), setup = stepper, config = about(853_342))]
 fn step(stepper: Stepper) -> State {
     let mut state = State::default();
     for _ in 0..STEPS {
@@ -95,8 +95,8 @@ fn step(stepper: Stepper) -> State {
 
 // 100 steps of each of 64 bodies, in the lanes that valgrind knows: four of doubles.
 #[library_benchmark]
-#[bench::consistent(args = (Model::Consistent), setup = many, config = about(7_067_517))]
-#[bench::separated(args = (Model::Separated), setup = many, config = about(15_708_594))]
+#[bench::consistent(args = (Model::Consistent), setup = many, config = about(6_729_683))]
+#[bench::separated(args = (Model::Separated), setup = many, config = about(15_078_993))]
 fn step_batch((stepper, mut batch): (Stepper, Batch)) -> Batch {
     for _ in 0..STEPS {
         stepper.step_batch(black_box(&mut batch), 5e-3).unwrap();
@@ -106,7 +106,7 @@ fn step_batch((stepper, mut batch): (Stepper, Batch)) -> Batch {
 
 // Added mass at 320 triangles, of which the panel integrals are nine tenths.
 #[library_benchmark]
-#[bench::ellipsoid(args = (), setup = mesh, config = about(59_775_289))]
+#[bench::ellipsoid(args = (), setup = mesh, config = about(58_854_896))]
 fn panels(mesh: TriMesh) -> f64 {
     let options = Options {
         target_triangles: 320,
@@ -117,7 +117,7 @@ fn panels(mesh: TriMesh) -> f64 {
 
 // One projection on 32^3 cells.
 #[library_benchmark]
-#[bench::stream(args = (), setup = stream, config = about(11_031_170))]
+#[bench::stream(args = (), setup = stream, config = about(9_928_506))]
 fn project((mut projection, mut grid): (Projection, MacGrid)) -> f64 {
     projection.project(black_box(&mut grid)).unwrap();
     grid.max_divergence()
