@@ -5,10 +5,9 @@
 //! and K. Miyata, "Langevin Rigid: Animating Immersed Rigid Bodies in Real-time", 2014), with a closure for separated
 //! flow on top. A step needs no grid and no panels.
 //!
-//! It is not a rigid-body engine: it knows no contacts, joints or collisions, but takes their forces as a [`Wrench`]; the crate
-//! `langevin-rigid-world` has contacts and water. Nor
-//! is it a fluid solver: [`Fluid`] and [`Flow`] prescribe the fluid, and bodies do not disturb it for one another. It
-//! opens no files, starts no threads and has no unsafe code.
+//! It is not a rigid-body engine: it knows no contacts, joints or collisions, but takes their forces as a [`Wrench`]; the
+//! crate `langevin-rigid-world` has contacts and water. Nor is it a fluid solver: [`Fluid`] and [`Flow`] prescribe the
+//! fluid, and bodies do not disturb it for one another. It opens no files, starts no threads and has no unsafe code.
 //!
 //! ```
 #![doc = include_str!("../examples/drop_a_leaf.rs")]
