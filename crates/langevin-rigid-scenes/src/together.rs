@@ -33,6 +33,12 @@ pub enum TogetherError {
     /// A body of a crowd found no room.
     #[error("the [crowd] has no room: {0}, by a larger `over` or a longer `during`")]
     Crowded(Overlap),
+    /// No body was let go.
+    #[error(
+        "no body was let go before the run ended: lengthen the `duration` beyond the first release, which `carried` or the \
+         `during` of the [crowd] puts off"
+    )]
+    Nobody,
     /// A body of another size is none.
     #[error(transparent)]
     Size(#[from] SurroundingsError),
@@ -71,7 +77,10 @@ impl Prepared {
         let mut run = Run::new(self.scene(), surroundings, &self.releases(bodies), most)?;
         run.begin()?;
         run.go_on(progress);
-        Ok(run.falls)
+        match run.falls.is_empty() {
+            true => Err(TogetherError::Nobody),
+            false => Ok(run.falls),
+        }
     }
 
     fn releases(&self, bodies: u32) -> Vec<Release> {

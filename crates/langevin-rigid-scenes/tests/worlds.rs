@@ -185,6 +185,16 @@ fn a_run_alone_is_the_run_of_an_ensemble() {
 }
 
 #[test]
+fn a_run_that_ends_before_anything_is_let_go_is_told() {
+    let mut scene = find("coin").unwrap();
+    scene.stop.time = Some(0.05);
+    let error = prepared(scene)
+        .drop_together(1, usize::MAX, &())
+        .unwrap_err();
+    assert!(matches!(error, TogetherError::Nobody), "{error}");
+}
+
+#[test]
 fn a_body_inside_another_is_refused_by_name() {
     let text = r#"
         fluid.preset = "air"

@@ -35,7 +35,7 @@ impl World {
             + 2.0 * self.gravity * dt * dt
     }
 
-    /// All that is close, in the order of its keys.
+    /// All that is close: obstacles to each body, then bodies to each other.
     pub(super) fn meet(&self, dt: f64) -> Vec<Met> {
         let strides: Vec<f64> = self
             .members
