@@ -9,12 +9,12 @@ use langevin_rigid_formats::export::{
 };
 use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::{Trajectory, read_csv};
+use langevin_rigid_scenes::cast::Cast;
 use langevin_rigid_scenes::scene::{self, Scene};
 use serde_json::Value;
 
 use crate::arguments::Export;
 use crate::bars::Bars;
-use crate::cast::Cast;
 use crate::{cache, forecast, say};
 
 pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {

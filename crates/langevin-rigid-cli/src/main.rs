@@ -6,7 +6,6 @@ mod bake;
 mod bars;
 mod bench;
 mod cache;
-mod cast;
 mod check;
 mod crowd;
 mod direct;
