@@ -15,6 +15,7 @@ mod export;
 mod forecast;
 mod meshes;
 mod pictures;
+mod recorded_run;
 mod regimes;
 mod repair;
 mod reproduce;
