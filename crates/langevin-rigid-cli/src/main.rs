@@ -26,6 +26,7 @@ mod simulate;
 mod size;
 mod summary;
 mod turbulence;
+mod view;
 
 use std::process::ExitCode;
 
@@ -54,6 +55,7 @@ fn main() -> ExitCode {
         Command::Bench(options) => bench::bench(options, &bars),
         Command::Crowd(options) => crowd::crowd(options, &bars),
         Command::Reproduce(options) => reproduce::reproduce(options, &bars),
+        Command::View(options) => view::view(options, &bars),
         Command::Scenes => scenes::scenes(),
     };
     bars.clear();
