@@ -14,6 +14,7 @@ mod export;
 mod forecast;
 mod meshes;
 mod pictures;
+mod recorded_run;
 mod regimes;
 mod repair;
 mod reproduce;
@@ -24,6 +25,7 @@ mod simulate;
 mod size;
 mod summary;
 mod turbulence;
+mod view;
 
 use std::process::ExitCode;
 
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         Command::Bench(options) => bench::bench(options, &bars),
         Command::Crowd(options) => crowd::crowd(options, &bars),
         Command::Reproduce(options) => reproduce::reproduce(options, &bars),
+        Command::View(options) => view::view(options, &bars),
         Command::Scenes => scenes::scenes(),
     };
     bars.clear();
