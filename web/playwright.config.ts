@@ -1,0 +1,32 @@
+import { existsSync } from 'node:fs';
+import { defineConfig } from '@playwright/test';
+
+const browser = '/usr/bin/chromium';
+const served = 'http://localhost:4173/';
+
+export default defineConfig({
+  testDir: 'tests',
+  forbidOnly: true,
+  reporter: 'line',
+  use: {
+    baseURL: process.env['TEST_URL'] ?? served,
+    launchOptions: {
+      // The distribution's browser, or else Playwright's own.
+      ...(existsSync(browser) ? { executablePath: browser } : {}),
+      args: [
+        '--no-sandbox',
+        '--disable-quic',
+        '--no-first-run',
+        '--disable-background-networking',
+        '--disable-component-update',
+        '--disable-sync',
+        '--use-angle=swiftshader',
+        '--enable-unsafe-swiftshader',
+      ],
+    },
+  },
+  // The built page, unless TEST_URL names one that is served.
+  ...(process.env['TEST_URL'] === undefined
+    ? { webServer: { command: 'npx vite preview --host localhost --port 4173 --strictPort', url: served } }
+    : {}),
+});

@@ -1,0 +1,31 @@
+import { defineConfig } from 'vite';
+
+/** Where the page is built to, and served from for tests. */
+const page = process.env['PAGE'] ?? '../crates/langevin-rigid-cli/page';
+
+/** What the page may load; its servers send this. */
+const policy = [
+  "default-src 'self'",
+  "script-src 'self' 'wasm-unsafe-eval'",
+  "style-src 'self' 'unsafe-inline'",
+  "img-src 'self' blob: data:",
+  "connect-src 'self' blob: data:",
+  "worker-src 'self' blob:",
+];
+
+export default defineConfig({
+  // The page works under any path.
+  base: './',
+  build: {
+    outDir: page,
+    emptyOutDir: true,
+    target: 'es2023',
+    assetsInlineLimit: 0,
+    modulePreload: { polyfill: false },
+    license: { fileName: 'licenses.txt' },
+    // three is larger than Vite likes.
+    chunkSizeWarningLimit: 1000,
+  },
+  worker: { format: 'es' },
+  preview: { headers: { 'Content-Security-Policy': policy.join('; ') } },
+});
