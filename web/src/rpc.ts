@@ -40,7 +40,7 @@ export class Client<M extends Methods> {
   constructor(worker: Worker) {
     this.#worker = worker;
     worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => this.#take(data));
-    worker.addEventListener('error', (event) => this.#fail(event.message || 'the worker did not load'));
+    worker.addEventListener('error', (event) => this.fail(new Error(event.message || 'the engine did not load')));
   }
 
   /** What the method returns; rejected with what it throws. */
@@ -73,9 +73,10 @@ export class Client<M extends Methods> {
     }
   }
 
-  #fail(message: string): void {
+  /** Ends all calls that are waited for. */
+  fail(error: Error): void {
     for (const { reject } of this.#pending.values()) {
-      reject(new Error(message));
+      reject(error);
     }
     this.#pending.clear();
   }

@@ -25,6 +25,8 @@ pub struct Description {
     pub density: f64,
     /// Density of the fluid (kg/m^3).
     pub fluid_density: f64,
+    /// Kinematic viscosity of the fluid (m^2/s).
+    pub fluid_viscosity: f64,
     /// Half-extents along its principal axes, ascending (m).
     pub half_extents: Vec3,
     /// Diagonal of the added mass in the fluid: kg, then kg m^2.
@@ -94,6 +96,7 @@ impl Session {
             volume: body.volume,
             density: body.density(),
             fluid_density: fluid.density,
+            fluid_viscosity: fluid.viscosity,
             half_extents: body.half_extents,
             added_mass: std::array::from_fn(|i| fluid.density * body.added_mass[i][i]),
             falling_speed: falling_speed(body, fluid, gravity),

@@ -1,0 +1,114 @@
+/** A body that is dragged in the picture and let go. */
+
+import { Mesh, Object3D, Plane, Quaternion, Raycaster, Vector2, Vector3 } from 'three';
+import type { View } from './view';
+
+/** What is left of the hand's motion at release is that of its last tenth of a second. */
+const MEMORY = 0.1;
+/** Fastest throw (m/s). */
+const FASTEST = 30;
+
+export interface ThrowEvents {
+  /** What can be grabbed now: the body, and a size around it that is easy to hit (m). */
+  target(): { body: Object3D; size: number } | undefined;
+  grabbed(): void;
+  moved(position: Vector3): void;
+  released(position: Vector3, orientation: Quaternion, velocity: Vector3): void;
+}
+
+export class Throw {
+  readonly #view: View;
+  readonly #events: ThrowEvents;
+  readonly #ray = new Raycaster();
+  #held: { body: Object3D; plane: Plane; offset: Vector3; path: { time: number; at: Vector3 }[] } | undefined;
+
+  constructor(view: View, events: ThrowEvents) {
+    this.#view = view;
+    this.#events = events;
+    const { canvas } = view;
+    // Before the camera's controls, which must not turn it.
+    canvas.addEventListener('pointerdown', (event) => this.#down(event), { capture: true });
+    canvas.addEventListener('pointermove', (event) => this.#move(event), { capture: true });
+    for (const end of ['pointerup', 'pointercancel'] as const) {
+      canvas.addEventListener(end, (event) => this.#up(event), { capture: true });
+    }
+  }
+
+  get holding(): boolean {
+    return this.#held !== undefined;
+  }
+
+  #aim(event: PointerEvent): void {
+    const { left, top, width, height } = this.#view.canvas.getBoundingClientRect();
+    const at = new Vector2(
+      (2 * (event.clientX - left)) / width - 1,
+      1 - (2 * (event.clientY - top)) / height,
+    );
+    this.#ray.setFromCamera(at, this.#view.camera);
+  }
+
+  /** Whether the pointer is on the body, or close: thin sheets are hard to hit. */
+  #hits(body: Object3D, size: number): boolean {
+    const centre = body.getWorldPosition(new Vector3());
+    const near = this.#ray.ray.distanceToPoint(centre) < 0.6 * size;
+    return near || (body instanceof Mesh && this.#ray.intersectObject(body, false).length > 0);
+  }
+
+  #down(event: PointerEvent): void {
+    const target = this.#events.target();
+    if (target === undefined || event.button !== 0) {
+      return;
+    }
+    this.#aim(event);
+    if (!this.#hits(target.body, target.size)) {
+      return;
+    }
+    const at = target.body.getWorldPosition(new Vector3());
+    const facing = this.#view.camera.getWorldDirection(new Vector3());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(facing, at);
+    const point = this.#ray.ray.intersectPlane(plane, new Vector3()) ?? at;
+    this.#held = {
+      body: target.body,
+      plane,
+      offset: at.clone().sub(point),
+      path: [{ time: event.timeStamp / 1000, at }],
+    };
+    this.#view.controls.enabled = false;
+    this.#view.canvas.setPointerCapture(event.pointerId);
+    event.stopImmediatePropagation();
+    this.#events.grabbed();
+  }
+
+  #move(event: PointerEvent): void {
+    if (this.#held === undefined) {
+      return;
+    }
+    this.#aim(event);
+    const point = this.#ray.ray.intersectPlane(this.#held.plane, new Vector3());
+    if (point !== null) {
+      const at = point.add(this.#held.offset);
+      this.#held.path.push({ time: event.timeStamp / 1000, at });
+      this.#events.moved(at);
+    }
+    event.stopImmediatePropagation();
+  }
+
+  #up(event: PointerEvent): void {
+    const held = this.#held;
+    if (held === undefined) {
+      return;
+    }
+    this.#held = undefined;
+    this.#view.controls.enabled = true;
+    event.stopImmediatePropagation();
+    const now = event.timeStamp / 1000;
+    const last = held.path[held.path.length - 1];
+    const before = held.path.find(({ time }) => time >= now - MEMORY);
+    const velocity = new Vector3();
+    if (last !== undefined && before !== undefined && now > before.time) {
+      velocity.copy(last.at).sub(before.at).divideScalar(now - before.time);
+      velocity.clampLength(0, FASTEST);
+    }
+    this.#events.released(last?.at ?? held.body.position, held.body.quaternion, velocity);
+  }
+}

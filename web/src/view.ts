@@ -1,0 +1,289 @@
+/** The picture: camera, light, ground, and what stands and falls there. */
+
+import {
+  AmbientLight,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  CanvasTexture,
+  CircleGeometry,
+  DirectionalLight,
+  DoubleSide,
+  EdgesGeometry,
+  GridHelper,
+  Group,
+  HemisphereLight,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+  MeshStandardMaterial,
+  Object3D,
+  PCFShadowMap,
+  PerspectiveCamera,
+  PlaneGeometry,
+  Quaternion,
+  SRGBColorSpace,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { CSS2DRenderer } from 'three/addons/renderers/CSS2DRenderer.js';
+import { colour } from './dom';
+import type { Stage } from './told';
+
+const UP = new Vector3(0, 1, 0);
+
+/** Frees what an object and all below it hold on the graphics card. */
+export function dispose(object: Object3D): void {
+  object.removeFromParent();
+  object.traverse((part) => {
+    if (part instanceof Mesh || part instanceof LineSegments) {
+      part.geometry.dispose();
+      for (const material of [part.material].flat()) {
+        material.dispose();
+      }
+    }
+  });
+}
+
+export class View {
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera(38, 1, 1e-4, 1000);
+  readonly controls: OrbitControls;
+  readonly canvas: HTMLCanvasElement;
+  readonly #renderer: WebGLRenderer;
+  readonly #labels = new CSS2DRenderer();
+  readonly #sun = new DirectionalLight(0xffffff, 2.2);
+  #surroundings = new Group();
+  #ground = 0;
+  /** Size of what is looked at (m). */
+  #scale = 0.1;
+
+  /** @throws where the browser has no WebGL2 */
+  constructor(readonly frame: HTMLElement) {
+    this.#renderer = new WebGLRenderer({ antialias: true });
+    this.#renderer.shadowMap.enabled = true;
+    this.#renderer.shadowMap.type = PCFShadowMap;
+    this.canvas = this.#renderer.domElement;
+    this.#labels.domElement.className = 'labels';
+    this.frame.append(this.canvas, this.#labels.domElement);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.enablePan = true;
+    this.#sun.castShadow = true;
+    this.#sun.shadow.mapSize.set(2048, 2048);
+    this.scene.add(
+      new HemisphereLight(0xffffff, 0x8a8f80, 1.3),
+      new AmbientLight(0xffffff, 0.25),
+      this.#sun,
+      this.#sun.target,
+      this.#surroundings,
+    );
+    this.recolour();
+    new ResizeObserver(() => this.resize()).observe(frame);
+    this.resize();
+  }
+
+  resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.frame;
+    if (width > 0 && height > 0) {
+      this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+      this.#renderer.setSize(width, height);
+      this.#labels.setSize(width, height);
+      this.camera.aspect = width / height;
+      this.camera.updateProjectionMatrix();
+    }
+  }
+
+  /** Takes the colours of the page's theme. */
+  recolour(): void {
+    const canvas = Object.assign(document.createElement('canvas'), { width: 2, height: 256 });
+    const paint = canvas.getContext('2d');
+    if (paint !== null) {
+      const sky = paint.createLinearGradient(0, 0, 0, 256);
+      sky.addColorStop(0, colour('sky-top'));
+      sky.addColorStop(1, colour('sky-bottom'));
+      paint.fillStyle = sky;
+      paint.fillRect(0, 0, 2, 256);
+    }
+    const texture = new CanvasTexture(canvas);
+    texture.colorSpace = SRGBColorSpace;
+    this.scene.background = texture;
+    this.#stage?.();
+  }
+
+  #stage: (() => void) | undefined;
+
+  /** Puts up what stands around bodies of this size (m), over an area of this radius (m) around a place. */
+  surround(stage: Stage, scale: number, centre: Vector3, radius: number): void {
+    this.#scale = scale;
+    this.#stage = () => {
+      dispose(this.#surroundings);
+      this.#surroundings = surroundings(stage, scale, centre, radius);
+      this.scene.add(this.#surroundings);
+    };
+    this.#stage();
+    this.#ground = stage.ground ?? Number.NEGATIVE_INFINITY;
+    this.camera.near = scale / 200;
+    this.camera.far = Math.max(200 * scale, 60 * radius);
+    this.camera.updateProjectionMatrix();
+    this.controls.minDistance = scale;
+    this.controls.maxDistance = 20 * radius;
+  }
+
+  /** Looks at a place from a distance (m), from where it looked before. */
+  lookAt(place: Vector3, distance?: number): void {
+    const from = this.camera.position.clone().sub(this.controls.target);
+    if (distance !== undefined) {
+      from.setLength(distance);
+    }
+    this.controls.target.copy(place);
+    this.camera.position.copy(place).add(from);
+  }
+
+  /** Looks from here, a direction. */
+  lookFrom(direction: Vector3): void {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    this.camera.position
+      .copy(direction)
+      .setLength(distance || 1)
+      .add(this.controls.target);
+  }
+
+  /** Turns the camera around what it looks at (radians), and moves it nearer or farther by a factor. */
+  orbit(heading: number, height: number, distance: number): void {
+    const from = this.camera.position.clone().sub(this.controls.target);
+    const across = new Vector3().crossVectors(from, UP).normalize();
+    from.applyQuaternion(new Quaternion().setFromAxisAngle(UP, heading));
+    const raised = from.clone().applyQuaternion(new Quaternion().setFromAxisAngle(across, height));
+    // Not over the top.
+    if (Math.abs(raised.clone().normalize().y) < 0.98) {
+      from.copy(raised);
+    }
+    this.camera.position.copy(this.controls.target).add(from.multiplyScalar(distance));
+  }
+
+  /** Draws; how long that took (ms), without what the graphics card does after. */
+  draw(): number {
+    const begun = performance.now();
+    this.controls.update();
+    // The camera stays above the ground.
+    const floor = this.#ground + 0.2 * this.#scale;
+    this.camera.position.y = Math.max(this.camera.position.y, floor);
+    this.#light();
+    this.#renderer.render(this.scene, this.camera);
+    this.#labels.render(this.scene, this.camera);
+    return performance.now() - begun;
+  }
+
+  /** Shadows of what is looked at are sharp. */
+  #light(): void {
+    const reach = Math.max(2 * this.#scale, this.camera.position.distanceTo(this.controls.target));
+    const target = this.controls.target;
+    this.#sun.target.position.copy(target);
+    this.#sun.position.set(0.45, 1, 0.35).multiplyScalar(4 * reach).add(target);
+    const box = this.#sun.shadow.camera;
+    const half = 1.2 * reach;
+    Object.assign(box, { left: -half, right: half, top: half, bottom: -half, near: 0, far: 12 * reach });
+    box.updateProjectionMatrix();
+    this.#sun.shadow.normalBias = reach / 400;
+  }
+
+  /** The picture as PNG. */
+  png(): Promise<Blob> {
+    this.draw();
+    return new Promise((resolve, reject) =>
+      this.canvas.toBlob(
+        (blob) => (blob === null ? reject(new Error('the browser gave no picture')) : resolve(blob)),
+        'image/png',
+      ),
+    );
+  }
+}
+
+/** Distance of the lines on the ground (m): a round number about the size of the body. */
+export function gridStep(scale: number): number {
+  const power = 10 ** Math.floor(Math.log10(2 * scale));
+  return [1, 2, 5, 10].map((step) => step * power).find((step) => step >= scale) ?? power;
+}
+
+function surroundings(stage: Stage, scale: number, centre: Vector3, radius: number): Group {
+  const group = new Group();
+  const reach = 4 * radius;
+  if (stage.ground !== null) {
+    const ground = new Mesh(
+      new CircleGeometry(12 * radius, 96).rotateX(-Math.PI / 2),
+      new MeshLambertMaterial({ color: colour('ground') }),
+    );
+    ground.receiveShadow = true;
+    ground.position.set(centre.x, stage.ground - 1e-3 * scale, centre.z);
+    group.add(ground, grid(stage.ground, scale, centre, reach));
+  }
+  if (stage.water !== null) {
+    const water = new Mesh(
+      new PlaneGeometry(2 * reach, 2 * reach).rotateX(-Math.PI / 2),
+      new MeshStandardMaterial({
+        color: colour('water'),
+        transparent: true,
+        opacity: 0.55,
+        roughness: 0.2,
+        side: DoubleSide,
+        depthWrite: false,
+      }),
+    );
+    water.position.set(centre.x, stage.water, centre.z);
+    group.add(water);
+  }
+  if (stage.walls !== null) {
+    const [low, high] = stage.walls.map((corner) => new Vector3(...corner)) as [Vector3, Vector3];
+    const sides = high.clone().sub(low);
+    const box = new BoxGeometry(sides.x, sides.y, sides.z);
+    const edges = new LineSegments(
+      new EdgesGeometry(box),
+      new LineBasicMaterial({ color: colour('muted') }),
+    );
+    box.dispose();
+    edges.position.copy(low).add(high).multiplyScalar(0.5);
+    group.add(edges);
+  }
+  for (const [point, normal] of stage.planes) {
+    const plane = new Mesh(
+      new PlaneGeometry(2 * reach, 2 * reach),
+      new MeshLambertMaterial({ color: colour('ground'), side: DoubleSide }),
+    );
+    plane.position.set(...point);
+    plane.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...normal).normalize());
+    plane.receiveShadow = true;
+    group.add(plane);
+  }
+  for (const { vertices, triangles } of stage.solids) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array(vertices.flat()), 3));
+    geometry.setIndex(triangles.flat());
+    const flat = geometry.toNonIndexed();
+    geometry.dispose();
+    flat.computeVertexNormals();
+    const solid = new Mesh(flat, new MeshStandardMaterial({ color: colour('solid'), roughness: 0.9 }));
+    solid.castShadow = solid.receiveShadow = true;
+    group.add(solid);
+  }
+  return group;
+}
+
+function grid(height: number, scale: number, centre: Vector3, reach: number): GridHelper {
+  let step = gridStep(scale);
+  while (reach / step > 100) {
+    step *= 10;
+  }
+  const half = Math.ceil(reach / step);
+  const lines = new GridHelper(2 * half * step, 2 * half, colour('grid'), colour('grid'));
+  lines.material.transparent = true;
+  lines.material.opacity = 0.5;
+  lines.position.set(
+    Math.round(centre.x / step) * step,
+    height + 1e-3 * scale,
+    Math.round(centre.z / step) * step,
+  );
+  return lines;
+}
