@@ -42,6 +42,7 @@ pub(crate) enum Command {
     Reproduce(Reproduce),
     Bench(Bench),
     Crowd(Crowd),
+    View(View),
     /// List the built-in scenes.
     Scenes,
 }
@@ -483,6 +484,31 @@ pub(crate) struct Reproduce {
     /// Write the tables into the pages of this folder as well.
     #[arg(long, value_name = "DIR")]
     pub(crate) update: Option<PathBuf>,
+}
+
+/// Show a scene or a run in the browser.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  langevin-rigid view
+  langevin-rigid view leaf
+  langevin-rigid view my-scene.toml
+  langevin-rigid view out/leaf
+  langevin-rigid view out/leaf --no-open --port 9000
+
+Prints the address of the page and serves it to this machine alone, until Ctrl-C. The page needs no
+network. What it shows is read at the start: begin again to see what has changed since.")]
+pub(crate) struct View {
+    /// A built-in scene (see `langevin-rigid scenes`), a scene file, or a folder that `simulate` wrote, with csv among its
+    /// formats.
+    #[arg(value_name = "SCENE | RUN")]
+    pub(crate) what: Option<String>,
+    /// Port of the page; 0 takes any that is free [default: 8420, or any that is free].
+    #[arg(long, value_name = "N")]
+    pub(crate) port: Option<u16>,
+    /// Do not open the page, only print its address.
+    #[arg(long)]
+    pub(crate) no_open: bool,
 }
 
 fn models() -> String {

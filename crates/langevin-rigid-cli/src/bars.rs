@@ -63,6 +63,11 @@ impl Bars {
         done
     }
 
+    /// Waits until it is asked to stop.
+    pub(crate) fn wait_for_signal(&self) {
+        self.stoppable(|| self.signals.wait());
+    }
+
     /// Takes the bar off the screen.
     pub(crate) fn clear(&self) {
         self.lock().start("");

@@ -5,26 +5,26 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use langevin_rigid_formats::export::{
-    self, BodyRow, Format, Kind, Options, RecordedBody, Recording, Up, read_bodies,
+    self, BodyRow, Format, Kind, Options, RecordedBody, Recording, Up,
 };
 use langevin_rigid_formats::files::Claim;
-use langevin_rigid_formats::trajectory::{Trajectory, read_csv};
-use langevin_rigid_scenes::scene::{self, Scene};
-use serde_json::Value;
+use langevin_rigid_formats::trajectory::Trajectory;
+use langevin_rigid_scenes::cast::Cast;
+use langevin_rigid_scenes::scene::Scene;
 
 use crate::arguments::Export;
 use crate::bars::Bars;
-use crate::cast::Cast;
+use crate::recorded_run::{BODIES, RecordedRun};
 use crate::{cache, forecast, say};
 
 pub(crate) fn export(options: &Export, bars: &Bars) -> Result<()> {
     export::check(&options.format)?;
     let folder = options.out.as_deref().unwrap_or(&options.run);
     keep_the_table(options, folder)?;
-    let summary = summary(&options.run);
-    let trajectories = trajectories(&options.run, &summary)?;
-    let rows = bodies(&options.run, &summary)?;
-    let scene = scene_of(&options.run, &summary)?;
+    let made = RecordedRun::open(&options.run);
+    let trajectories = made.trajectories()?.rows;
+    let rows = made.bodies()?.map_or_else(Vec::new, |bodies| bodies.rows);
+    let scene = without_surroundings(made.scene()?);
     forecast(options, &trajectories)?;
     let _claim = Claim::folder(folder)?;
     let prepared = cache::prepare(scene, bars)?;
@@ -92,44 +92,6 @@ fn keep_the_table(options: &Export, folder: &Path) -> Result<()> {
     Ok(())
 }
 
-fn trajectories(run: &Path, summary: &Value) -> Result<Vec<Trajectory>> {
-    let path = run.join(Format::Csv.file_name());
-    let table = std::fs::read_to_string(&path).with_context(|| {
-        format!(
-            "cannot read `{}`, the table that exports are made from; give a folder that `langevin-rigid \
-             simulate` wrote with csv among its formats",
-            path.display()
-        )
-    })?;
-    if let Some(files) = summary["files"].as_array()
-        && !files.iter().any(|file| file == Format::Csv.file_name())
-    {
-        bail!(
-            "`{}` is of an older run: the last one in this folder was not asked for csv; simulate it \
-             again with csv among its formats",
-            path.display()
-        );
-    }
-    read_csv(&table).with_context(|| path.display().to_string())
-}
-
-/// Kinds and sizes of the bodies, where they differ.
-fn bodies(run: &Path, summary: &Value) -> Result<Vec<BodyRow>> {
-    let name = "bodies.csv";
-    let files = summary["files"].as_array();
-    if !files.is_some_and(|files| files.iter().any(|file| file == name)) {
-        return Ok(Vec::new());
-    }
-    let path = run.join(name);
-    let table = std::fs::read_to_string(&path).with_context(|| {
-        format!(
-            "cannot read `{}`, the kinds and sizes of the bodies",
-            path.display()
-        )
-    })?;
-    read_bodies(&table).with_context(|| path.display().to_string())
-}
-
 fn recorded<'a>(
     trajectory: &'a Trajectory,
     kinds: &[Kind<'_>],
@@ -140,7 +102,7 @@ fn recorded<'a>(
     }
     let number = trajectory.body;
     let row = rows.iter().find(|row| row.body == number);
-    let row = row.with_context(|| format!("bodies.csv does not tell the kind of body {number}"))?;
+    let row = row.with_context(|| format!("{BODIES} does not tell the kind of body {number}"))?;
     let kind = kinds.iter().position(|kind| kind.name == row.kind);
     Ok(RecordedBody {
         kind: kind.with_context(|| {
@@ -152,22 +114,12 @@ fn recorded<'a>(
     })
 }
 
-/// What the run said of itself; nothing where that is lost.
-fn summary(run: &Path) -> Value {
-    let bytes = std::fs::read(run.join("summary.json")).ok();
-    let summary = bytes.and_then(|bytes| serde_json::from_slice(&bytes).ok());
-    summary.unwrap_or_default()
-}
-
-/// The scene of a run, by the name it had, without what moved its bodies.
-fn scene_of(run: &Path, summary: &Value) -> Result<Scene> {
-    let scene = scene::find(&run.join("scene.toml").display().to_string())?;
-    let name = summary["scene"].as_str().unwrap_or(&scene.name).to_owned();
-    Ok(Scene {
-        name,
+/// The scene without what moved its bodies.
+fn without_surroundings(scene: Scene) -> Scene {
+    Scene {
         wind: Vec::new(),
         obstacles: Vec::new(),
         water: None,
         ..scene
-    })
+    }
 }

@@ -6,7 +6,6 @@ mod bake;
 mod bars;
 mod bench;
 mod cache;
-mod cast;
 mod check;
 mod crowd;
 mod direct;
@@ -15,6 +14,7 @@ mod export;
 mod forecast;
 mod meshes;
 mod pictures;
+mod recorded_run;
 mod regimes;
 mod repair;
 mod reproduce;
@@ -25,6 +25,7 @@ mod simulate;
 mod size;
 mod summary;
 mod turbulence;
+mod view;
 
 use std::process::ExitCode;
 
@@ -53,6 +54,7 @@ fn main() -> ExitCode {
         Command::Bench(options) => bench::bench(options, &bars),
         Command::Crowd(options) => crowd::crowd(options, &bars),
         Command::Reproduce(options) => reproduce::reproduce(options, &bars),
+        Command::View(options) => view::view(options, &bars),
         Command::Scenes => scenes::scenes(),
     };
     bars.clear();

@@ -4,8 +4,8 @@
 //! and everything at the second signal, ends at once, whatever the other threads do: no file is ever half
 //! written, and temporary ones are removed.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use langevin_rigid_formats::files;
 
@@ -17,8 +17,8 @@ const ENDED_BY: i32 = 128;
 /// Which signal came, and what it may do.
 #[derive(Default)]
 pub(crate) struct Signals {
-    /// The first signal; zero while there was none.
-    came: AtomicI32,
+    /// The first signal.
+    came: OnceLock<i32>,
     /// Whether there is work that stops when it is asked.
     stoppable: AtomicBool,
 }
@@ -33,10 +33,8 @@ impl Signals {
     }
 
     fn hear(&self, signal: i32, before_end: &dyn Fn()) {
-        let first = self
-            .came
-            .compare_exchange(0, signal, Ordering::SeqCst, Ordering::SeqCst);
-        if first.is_ok() && self.stoppable.load(Ordering::SeqCst) {
+        let first = self.came.set(signal).is_ok();
+        if first && self.stoppable.load(Ordering::SeqCst) {
             return;
         }
         files::abandon();
@@ -47,12 +45,18 @@ impl Signals {
 
     /// Whether a signal came.
     pub(crate) fn came(&self) -> bool {
-        self.came.load(Ordering::SeqCst) != 0
+        self.came.get().is_some()
+    }
+
+    /// Waits for one.
+    pub(crate) fn wait(&self) {
+        self.came.wait();
     }
 
     /// The exit code of a program that a signal ended.
     pub(crate) fn exit_code(&self) -> u8 {
-        u8::try_from(ENDED_BY + self.came.load(Ordering::SeqCst)).unwrap_or(u8::MAX)
+        let signal = self.came.get().unwrap_or(&0);
+        u8::try_from(ENDED_BY + signal).unwrap_or(u8::MAX)
     }
 
     /// Whether work stops when it is asked, from now on.

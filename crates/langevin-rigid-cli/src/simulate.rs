@@ -12,12 +12,12 @@ use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::Trajectory;
 use langevin_rigid_pictures::Film;
 use langevin_rigid_scenes::baking::Baked;
+use langevin_rigid_scenes::cast::Cast;
 use langevin_rigid_scenes::prepared::{Fall, Prepared};
 use langevin_rigid_scenes::scene::{self, Scene};
 
 use crate::arguments::Simulate;
 use crate::bars::Bars;
-use crate::cast::Cast;
 use crate::pictures::{self, Shot};
 use crate::summary::Summary;
 use crate::{cache, forecast, say};

@@ -4,6 +4,7 @@
 
 mod common;
 
+use std::io::Read;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
@@ -77,6 +78,20 @@ fn a_stuck_program_ends_at_once() {
         // Nobody reads the pipe: opening it waits for ever.
         let bake = start(&place, &["bake", "ball.toml", "--out", "pipe"]);
         let (output, taken) = ended(bake, Duration::from_secs(2), name);
+        assert_eq!(output.status.code(), Some(code), "{name}");
+        assert!(taken < Duration::from_secs(1), "{name} took {taken:?}");
+    }
+}
+
+#[test]
+fn a_page_is_served_until_a_signal() {
+    let place = Place::new();
+    for (name, code) in SIGNALS {
+        let mut view = start(&place, &["view", "--no-open", "--port=0"]);
+        // It listens to signals before it gives its address.
+        let mut byte = [0];
+        view.stdout.as_mut().unwrap().read_exact(&mut byte).unwrap();
+        let (output, taken) = ended(view, Duration::ZERO, name);
         assert_eq!(output.status.code(), Some(code), "{name}");
         assert!(taken < Duration::from_secs(1), "{name} took {taken:?}");
     }

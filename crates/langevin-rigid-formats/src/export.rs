@@ -20,8 +20,7 @@ mod shading;
 mod up;
 mod usd;
 
-use std::fs::File;
-use std::io::{self, BufWriter};
+use std::io;
 use std::path::Path;
 
 use animation::Animation;
@@ -268,7 +267,7 @@ pub fn write(
 
 fn table(
     path: &Path,
-    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    content: impl FnOnce(&mut files::Out) -> io::Result<()>,
 ) -> Result<(), WriteError> {
     files::write_with(path, content)
 }

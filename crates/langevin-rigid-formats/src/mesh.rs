@@ -27,6 +27,7 @@ use std::path::Path;
 
 use langevin_rigid_bake::mesh::{MeshError, TriMesh, close_seams, open_edge_count, weld};
 
+use crate::files;
 use foreign::Foreign;
 
 pub use error::{ParseError, Place, ReadError};
@@ -239,7 +240,7 @@ pub fn read_mesh(path: &Path, unit: Option<LengthUnit>) -> Result<RawMesh, ReadE
     if path.is_dir() {
         return Err(ReadError::Folder { path: path.into() });
     }
-    let bytes = std::fs::read(path).map_err(|source| ReadError::of_file(path, source))?;
+    let bytes = files::read(path).map_err(|source| ReadError::of_file(path, source))?;
     let refused = |foreign: Foreign| ReadError::Foreign {
         path: path.into(),
         what: foreign.what,

@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use crate::files;
 use crate::mesh::gltf;
 use crate::mesh::{MeshFormat, ParseError};
 pub(crate) use gather::{align, append};
@@ -111,7 +112,7 @@ impl Visual {
     /// [`VisualError`], also for whatever is damaged: numbers of objects that are not there, nodes that are no tree,
     /// data cut short, images that are missing or of no known format.
     pub fn read(path: &Path) -> Result<Self, VisualError> {
-        let bytes = std::fs::read(path).map_err(|error| VisualError::Unreadable {
+        let bytes = files::read(path).map_err(|error| VisualError::Unreadable {
             path: path.into(),
             error,
         })?;

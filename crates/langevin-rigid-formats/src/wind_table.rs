@@ -3,6 +3,7 @@
 use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 
+use crate::files;
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::wind::{Table, TableError};
 use npyz::{Deserialize, NpyFile, Order, npz::file_name_from_array_name};
@@ -69,7 +70,7 @@ pub enum TableFault {
 /// # Errors
 /// [`ReadTableError`], which names the file.
 pub fn read_wind_table(path: &Path) -> Result<Table, ReadTableError> {
-    let read = || parse_wind_table(&std::fs::read(path)?);
+    let read = || parse_wind_table(&files::read(path)?);
     read().map_err(|fault| ReadTableError {
         path: path.to_owned(),
         fault,

@@ -18,13 +18,20 @@ pub fn advance(prepared: &Prepared, release: &Release, state: &mut State) -> Res
     if is_carried(scene, state) {
         state.carry(scene.time_step);
     } else {
-        let input = blown(prepared, release, state, 0.0);
+        let input = input(prepared, release, state);
         prepared.stepper().step(state, scene.time_step, &input)?;
     }
     if let Some(tank) = &scene.tank {
         tank.hold(release.state.position, state);
     }
     Ok(())
+}
+
+/// What a body of the run meets in `state`: the wind where and when it is, what steers it, and its noise.
+///
+/// While it is [carried](crate::scene::Scene::carried) nothing of it moves the body.
+pub fn input(prepared: &Prepared, release: &Release, state: &State) -> Input {
+    blown(prepared, release, state, 0.0)
 }
 
 /// What a body meets, so much later (s) than by its own time.

@@ -238,7 +238,7 @@ fn cache_file(folder: &Path, fingerprint: &[u8; 32]) -> PathBuf {
 
 /// A cached bake that is whole and of the right fingerprint; none if there is no such file.
 fn from_cache(place: &Path, fingerprint: [u8; 32]) -> Result<Option<Bake>, String> {
-    let bytes = match std::fs::read(place) {
+    let bytes = match files::read(place) {
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
         bytes => bytes.map_err(|e| e.to_string())?,
     };

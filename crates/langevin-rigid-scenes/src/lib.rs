@@ -49,7 +49,7 @@
 //! - [`baking`]: from a scene to its mesh, its bake and its stepper.
 //! - [`prepared`]: a scene made ready, and the loop that drops its body.
 //! - [`advance`](mod@advance): one step of a scene, for hosts with a loop of their own.
-//! - [`look`](mod@look): how bodies look in exports.
+//! - [`look`](mod@look): how bodies look in exports; [`cast`]: all bodies of a run with their looks.
 //! - [`together`]: bodies that touch, float, and are many.
 //! - [`ensemble`]: many falls, what kind of motion each is, and their statistics.
 //! - [`direct`]: releases whose fall does what is asked.
@@ -75,6 +75,7 @@
 
 pub mod advance;
 pub mod baking;
+pub mod cast;
 pub mod direct;
 pub mod ensemble;
 mod lanes;

@@ -12,6 +12,7 @@ use langevin_rigid_world::{Kind, Overlap, World};
 use crate::ensemble::side_by_side;
 use crate::prepared::{Fall, Prepared};
 use crate::scene::Scene;
+pub use crowd::anywhere;
 pub use surroundings::{CrowdBody, Surroundings, SurroundingsError};
 
 /// Of many bodies the states are kept so often (Hz): several of any frame of a film.

@@ -97,6 +97,7 @@ mod simple_bodies;
 mod state;
 mod stepper;
 mod stokes;
+mod surface_pressure;
 mod symmetry;
 #[cfg(test)]
 mod thin_card;

@@ -8,6 +8,7 @@ use crate::langevin::Langevin;
 use crate::linalg::{
     Quat, Vec3, Vec6, add, cross, join, matrix_of, mul, rotate, rotate_back, scale, split, sub,
 };
+use crate::separated::Eddies;
 use crate::state::State;
 use crate::stepper::{Paper, Stepper, relative_to_turning};
 
@@ -116,6 +117,44 @@ impl Stepper {
         loads
     }
 
+    /// Velocity of the centre of mass (m/s) and angular velocity (rad/s) relative to the undisturbed fluid, body frame.
+    pub fn relative_velocities(&self, state: &State, input: &Input) -> [Vec3; 2] {
+        let forcing = Forcing::of(input);
+        let motion = self
+            .equations
+            .relative_to_fluid(&state.motion(), forcing.as_ref());
+        let turned = rotate_back(state.orientation, input.flow.rotation_rate());
+        let (velocity, angular_velocity) = split(&motion.xi);
+        [velocity, sub(angular_velocity, turned)]
+    }
+
+    /// Attachment of the flow under [`Model::Separated`](crate::Model::Separated): the fraction of Munk's couple that
+    /// separation leaves, the mean along the body. None in models without it.
+    ///
+    /// ```
+    /// use langevin_rigid::{Body, Fluid, Input, Model, Settings, State, Stepper};
+    /// let disc = Body::disc(0.05, 0.001, 500.0)?;
+    /// let settings = Settings { model: Model::Separated, ..Settings::default() };
+    /// let stepper = Stepper::new(&disc, &Fluid::AIR, None, &settings)?;
+    /// let attachment = |velocity| {
+    ///     let state = State { velocity, ..State::default() };
+    ///     stepper.attachment(&state, &Input::default())
+    /// };
+    /// assert!(attachment([1.0, -0.1, 0.0]) > attachment([0.0, -1.0, 0.0]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn attachment(&self, state: &State, input: &Input) -> Option<f64> {
+        let (None, FluidLoads::Separated(separated)) = (self.paper(), &self.equations.loads) else {
+            return None;
+        };
+        let forcing = Forcing::of(input);
+        let motion = self
+            .equations
+            .relative_to_fluid(&state.motion(), forcing.as_ref());
+        let ambient = ambient(&separated.eddies, &motion, state.time, forcing.as_ref());
+        Some(separated.closure.attachment(&motion.xi, &ambient))
+    }
+
     /// (rho V + A) a, with its torque.
     fn pushed(&self, orientation: Quat, acceleration: Vec3) -> Wrench {
         let kirchhoff = &self.equations.kirchhoff;
@@ -162,12 +201,7 @@ impl Stepper {
             }
             (None, FluidLoads::Langevin(langevin)) => loads.turbulence = relaxing(langevin),
             (None, FluidLoads::Separated(separated)) => {
-                let matrix = matrix_of(motion.orientation);
-                let ambient = Ambient {
-                    gradient: forcing.and_then(|forcing| forcing.gradient),
-                    fluctuation: separated.eddies.now(motion, time),
-                };
-                let ambient = ambient.seen_from(&matrix);
+                let ambient = ambient(&separated.eddies, motion, time, forcing);
                 let causes = separated.closure.causes(&motion.xi, &ambient);
                 loads.drag = world(&causes.drag);
                 loads.normal_force = world(&causes.normal_force);
@@ -178,4 +212,13 @@ impl Stepper {
             }
         }
     }
+}
+
+/// What the closure sees of the fluid around the body, body frame.
+fn ambient(eddies: &Eddies, motion: &Motion, time: f64, forcing: Option<&Forcing>) -> Ambient {
+    let ambient = Ambient {
+        gradient: forcing.and_then(|forcing| forcing.gradient),
+        fluctuation: eddies.now(motion, time),
+    };
+    ambient.seen_from(&matrix_of(motion.orientation))
 }

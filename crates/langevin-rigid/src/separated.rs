@@ -246,6 +246,23 @@ impl<F: Symmetry, R: Real> Closure<F, R> {
 }
 
 impl Closure {
+    /// Fraction of the potential couple that separation leaves: the mean of the slices, each by its added mass.
+    pub(crate) fn attachment(&self, xi: &Vec6, ambient: &Ambient) -> f64 {
+        if self.constants.attached {
+            return 1.0;
+        }
+        let relative = Relative::new(xi, ambient);
+        let spin = norm(relative.omega);
+        let (mut sum, mut whole) = (0.0, 0.0);
+        for slice in &self.slices {
+            let at_slice = relative.at(slice.centre);
+            let stream = slice.stream(&self.constants, at_slice, relative.omega, spin);
+            sum += slice.largest * stream.attachment;
+            whole += slice.largest;
+        }
+        if whole > 0.0 { sum / whole } else { 1.0 }
+    }
+
     /// [`Closure::load`] by cause, in the body frame, about the centre of mass.
     pub(crate) fn causes(&self, xi: &Vec6, ambient: &Ambient) -> Causes {
         let mut causes = Causes::default();

@@ -4,8 +4,9 @@ use std::fs::{File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::WriteError;
+use super::disk::{Target, folder_of};
 use super::temporary::{Temporary, ours, remove_empty};
-use super::{Target, WriteError, folder_of};
 
 /// A place that can be written to.
 ///

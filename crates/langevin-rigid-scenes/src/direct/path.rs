@@ -1,9 +1,11 @@
 //! A path that was drawn, and how far a fall is from it.
 
+use std::io::Read;
 use std::path::PathBuf;
 
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::linalg::vector::{add, dot, norm, scale, sub};
+use langevin_rigid_formats::files;
 
 use super::glimpses::{Glimpse, position_at};
 use crate::scene::Path;
@@ -55,10 +57,10 @@ const FARTHEST: f64 = 1e9;
 impl DrawnPath {
     pub(super) fn read(path: &Path) -> Result<Self, DrawnPathError> {
         let read = || -> std::io::Result<Option<String>> {
-            if std::fs::metadata(&path.file)?.len() > LONGEST {
-                return Ok(None);
-            }
-            std::fs::read_to_string(&path.file).map(Some)
+            let mut text = String::new();
+            let file = files::open(&path.file)?;
+            file.take(LONGEST + 1).read_to_string(&mut text)?;
+            Ok((text.len() as u64 <= LONGEST).then_some(text))
         };
         let file = || path.file.clone();
         let text = read().map_err(|error| DrawnPathError::Read {

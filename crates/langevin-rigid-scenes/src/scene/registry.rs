@@ -1,11 +1,11 @@
 //! The built-in scenes and how a scene is found.
 
 use std::convert::Infallible;
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use langevin_rigid::{UnknownName, choose};
+use langevin_rigid_formats::files;
 
 use super::{Geometry, ObstacleGeometry, Scene, SceneError, SceneField};
 
@@ -175,7 +175,7 @@ impl Scene {
 /// The text of a file, no more than it takes to see that it is too long.
 fn read(path: &Path) -> io::Result<String> {
     let mut text = String::new();
-    File::open(path)?
+    files::open(path)?
         .take(LONGEST + 1)
         .read_to_string(&mut text)?;
     Ok(text)

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use langevin_rigid::NoiseStream;
-use langevin_rigid::linalg::Quat;
+use langevin_rigid::linalg::{Quat, Vec3};
+use langevin_rigid::{NoiseStream, State};
 
 use super::Release;
 use crate::ensemble::scattered_release;
@@ -17,6 +17,20 @@ pub(super) fn releases(scene: &Scene, crowd: &Crowd) -> Vec<Release> {
     (0..crowd.count)
         .map(|number| release(scene, crowd, number))
         .collect()
+}
+
+/// A release of the scene's body anywhere in a box around the scene's, with sides `over` (m), any way round: a pure function
+/// of the scene's seed and `number`.
+pub fn anywhere(scene: &Scene, over: Vec3, number: u32) -> State {
+    let crowd = Crowd {
+        count: 1,
+        over,
+        during: 0.0,
+        any_orientation: true,
+        sizes: [1.0; 2],
+        kinds: Vec::new(),
+    };
+    release(scene, &crowd, number).state
 }
 
 fn release(scene: &Scene, crowd: &Crowd, number: u32) -> Release {

@@ -221,7 +221,7 @@ pub(super) struct Stream<R: Real> {
     spin: R,
     direction: Vec3<R>,
     incidence: Incidence<R>,
-    attachment: R,
+    pub(super) attachment: R,
     /// Factor by which a turning body loses the relief round its ends.
     relief: R,
     /// Factor by which the drag of a round body has risen with the Reynolds number.

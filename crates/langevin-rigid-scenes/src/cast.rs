@@ -1,21 +1,25 @@
 //! The kinds of bodies of a run, as exports show them.
 
-use anyhow::Result;
 use langevin_rigid::Bake;
 use langevin_rigid_formats::export::Kind;
 use langevin_rigid_formats::visual::Visual;
-use langevin_rigid_scenes::look::look;
-use langevin_rigid_scenes::prepared::Prepared;
-use langevin_rigid_scenes::scene::Scene;
 
-/// The bodies of a scene with their looks.
-pub(crate) struct Cast<'a> {
+use crate::look::{LookError, look};
+use crate::prepared::Prepared;
+use crate::scene::Scene;
+
+/// The bodies of a scene with their looks: what a [`Recording`](langevin_rigid_formats::export::Recording) is given.
+#[derive(Debug)]
+pub struct Cast<'a> {
     members: Vec<(&'a Scene, &'a Bake, Option<Visual>)>,
 }
 
 impl<'a> Cast<'a> {
     /// Reads the looks.
-    pub(crate) fn new(prepared: &'a Prepared) -> Result<Self> {
+    ///
+    /// # Errors
+    /// [`LookError`].
+    pub fn new(prepared: &'a Prepared) -> Result<Self, LookError> {
         let bakes: Vec<(&Scene, &Bake)> = match prepared.surroundings() {
             None => vec![(prepared.scene(), &prepared.baked().bake)],
             Some(surroundings) => {
@@ -27,12 +31,12 @@ impl<'a> Cast<'a> {
             .into_iter()
             .map(|(scene, bake)| Ok((scene, bake, look(scene)?)));
         Ok(Self {
-            members: members.collect::<Result<_>>()?,
+            members: members.collect::<Result<_, LookError>>()?,
         })
     }
 
     /// The kinds, the scene's own first.
-    pub(crate) fn kinds(&self) -> Vec<Kind<'_>> {
+    pub fn kinds(&self) -> Vec<Kind<'_>> {
         self.members
             .iter()
             .map(|(scene, bake, look)| Kind {
@@ -43,7 +47,7 @@ impl<'a> Cast<'a> {
     }
 
     /// What was left out of the looks.
-    pub(crate) fn notices(&self) -> impl Iterator<Item = String> {
+    pub fn notices(&self) -> impl Iterator<Item = String> {
         let looks = self.members.iter().filter_map(|(_, _, look)| look.as_ref());
         looks.flat_map(|look| look.notices().iter().cloned())
     }

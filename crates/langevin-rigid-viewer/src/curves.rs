@@ -1,0 +1,102 @@
+//! What a body did, as numbers over time, and the loads on it by cause.
+
+use langevin_rigid::linalg::rotate;
+use langevin_rigid::linalg::vector::{dot, norm, sub};
+use langevin_rigid::{Input, Loads, State};
+use langevin_rigid_scenes::advance::input;
+use langevin_rigid_scenes::prepared::Release;
+
+use crate::run::Run;
+use crate::session::Session;
+
+/// Numbers of a body at each frame of its run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Curves {
+    /// Speed of the centre of mass (m/s).
+    pub speed: Vec<f32>,
+    /// Angle between the body's y axis and the vertical (degrees), 0 to 180.
+    pub tilt: Vec<f32>,
+    /// Turns a second.
+    pub spin: Vec<f32>,
+    /// Kinetic energy of body and fluid, relative to the undisturbed fluid (J).
+    pub kinetic: Vec<f32>,
+    /// The same with the potential energy above the lowest place of the run (J).
+    pub energy: Vec<f32>,
+    /// Attachment of the flow, 0 to 1; NaN in models without it.
+    pub attachment: Vec<f32>,
+}
+
+/// Names of the [loads](Loads), in the order of [`Session::loads`].
+pub fn causes() -> Vec<&'static str> {
+    let causes = Loads::default().causes();
+    causes.iter().map(|(name, _)| *name).collect()
+}
+
+impl Session {
+    pub(crate) fn input(&self, state: &State) -> Input {
+        let release: Release = self.prepared().release(0);
+        input(self.prepared(), &release, state)
+    }
+
+    /// What the only body of a run did; empty of several.
+    pub fn curves(&self, run: &Run) -> Curves {
+        let (stepper, scene) = (self.prepared().stepper(), self.prepared().scene());
+        let body = self.prepared().body();
+        let gravity = scene.settings.gravity;
+        // What gravity pulls at: mass less that of the displaced fluid.
+        let heavy = body.mass - scene.fluid.density * body.volume;
+        let height = |state: &State| -dot(gravity, state.position);
+        let lowest = run
+            .states()
+            .iter()
+            .map(height)
+            .fold(f64::INFINITY, f64::min);
+        let up = match norm(gravity) {
+            pull if pull > 0.0 => gravity.map(|g| -g / pull),
+            _ => [0.0, 1.0, 0.0],
+        };
+        let mut curves = Curves::default();
+        for state in run.states() {
+            let kinetic = stepper.kinetic_energy(state);
+            let axis = rotate(state.orientation, [0.0, 1.0, 0.0]);
+            let tilt = dot(axis, up).clamp(-1.0, 1.0).acos().to_degrees();
+            let attachment = stepper.attachment(state, &self.input(state));
+            let turns = norm(state.angular_velocity) / std::f64::consts::TAU;
+            curves.speed.push(norm(state.velocity) as f32);
+            curves.tilt.push(tilt as f32);
+            curves.spin.push(turns as f32);
+            curves.kinetic.push(kinetic as f32);
+            let potential = heavy * (height(state) - lowest);
+            curves.energy.push((kinetic + potential) as f32);
+            curves
+                .attachment
+                .push(attachment.unwrap_or(f64::NAN) as f32);
+        }
+        curves
+    }
+
+    /// The loads on the only body of a run at each frame: for each of the [`causes`] force (N) and torque (N m) about the
+    /// centre of mass, world frame.
+    pub fn loads(&self, run: &Run) -> Vec<f32> {
+        let stepper = self.prepared().stepper();
+        let mut numbers = Vec::new();
+        for state in run.states() {
+            let loads = stepper.loads(state, &self.input(state));
+            for (_, wrench) in loads.causes() {
+                numbers.extend(wrench.force.map(|x| x as f32));
+                numbers.extend(wrench.torque.map(|x| x as f32));
+            }
+        }
+        numbers
+    }
+
+    /// Velocity of the undisturbed fluid at the body at each frame, world frame (m/s).
+    pub fn flow(&self, run: &Run) -> Vec<f32> {
+        let stream = self.prepared().scene().fluid.velocity;
+        let at = |state: &State| {
+            let wind = self.input(state).flow.velocity;
+            sub(wind, stream.map(|x| -x)).map(|x| x as f32)
+        };
+        run.states().iter().flat_map(at).collect()
+    }
+}
