@@ -1,6 +1,6 @@
 /** The engine's thread: WebAssembly behind calls. */
 
-import { initSync, scene_names } from '../engine/engine.js';
+import { built_in_scenes, initSync } from '../engine/engine.js';
 import { type OnProgress, serve } from './rpc';
 
 const methods = {
@@ -10,7 +10,8 @@ const methods = {
   },
 
   sceneNames(): string[] {
-    return scene_names();
+    const scenes = JSON.parse(built_in_scenes()) as { name: string }[];
+    return scenes.map(({ name }) => name);
   },
 };
 
