@@ -22,7 +22,6 @@ export default defineConfig({
     target: 'es2023',
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
-    license: { fileName: 'licenses.txt' },
     // three is larger than Vite likes.
     chunkSizeWarningLimit: 1000,
   },
