@@ -20,7 +20,7 @@ import { SceneDocument, type Values } from './scene';
 import { Swarm } from './swarm';
 import { Tabs } from './tabs';
 import { Theme } from './theme';
-import { Throw } from './throw';
+import { type Grabbable, Throw } from './throw';
 import { type CheckedMesh, type OpenedRun, type SceneText, curve } from './told';
 import { View, gridStep } from './view';
 
@@ -33,6 +33,26 @@ const MANY = 5000;
 const COARSE = 96;
 /** Work that takes longer shows a bar (ms). */
 const PATIENCE = 250;
+
+/** Tables of a run that was made before. */
+interface Tables {
+  trajectory: string;
+  bodies?: string | undefined;
+}
+
+/** A mesh as its file has it. */
+interface MeshFile {
+  name: string;
+  bytes: Uint8Array;
+}
+
+/** Many bodies under way, and the time that their simulation and their drawing take (ms a frame). */
+interface Crowd {
+  swarm: Swarm;
+  simulation: number;
+  drawing: number;
+  waiting: boolean;
+}
 
 /** A run in the picture. */
 interface Showing {
@@ -61,12 +81,12 @@ export class App {
   #arrows: Arrows | undefined;
   #scenes: SceneText[] = [];
   #scene = new SceneDocument('', {});
-  #tables: { trajectory: string; bodies?: string | undefined } | undefined;
+  #tables: Tables | undefined;
   #mesh: MeshTold | undefined;
-  #meshBytes: { name: string; bytes: Uint8Array } | undefined;
+  #meshBytes: MeshFile | undefined;
   #showing: Showing[] = [];
   #comparison: Comparison = { kind: 'none' };
-  #swarm: { swarm: Swarm; simulation: number; drawing: number; waiting: boolean } | undefined;
+  #swarm: Crowd | undefined;
   #throw: Throw | undefined;
   /** Counts what was asked to be shown: only the last of it is. */
   #asked = 0;
@@ -105,7 +125,9 @@ export class App {
       void this.#openBuiltIn((target as HTMLSelectElement).value);
     });
     byId('work-stop').addEventListener('click', () => this.#engine.stop());
-    byId('trouble').querySelector('button')?.addEventListener('click', () => this.#trouble(undefined));
+    byId('trouble')
+      .querySelector('button')
+      ?.addEventListener('click', () => this.#trouble(undefined));
     byId('share').addEventListener('click', () => void this.#share());
     new Tabs(byId('told'));
     new Theme(byId('theme'), () => {
@@ -135,7 +157,9 @@ export class App {
       target: () => this.#grabbable(),
       grabbed: () => {
         this.#playback.playing = false;
-        this.#showing.slice(1).forEach(({ actors }) => actors.forEach(({ group }) => (group.visible = false)));
+        this.#showing
+          .slice(1)
+          .forEach(({ actors }) => actors.forEach(({ group }) => (group.visible = false)));
       },
       moved: (position) => this.#showing[0]?.actors[0]?.mesh.position.copy(position),
       released: (position, orientation, velocity) => {
@@ -235,7 +259,7 @@ export class App {
   }
 
   /** Opens a scene that has nothing to do with the one before. */
-  async #open(scene: SceneDocument, tables?: typeof this.#tables): Promise<void> {
+  async #open(scene: SceneDocument, tables?: Tables | undefined): Promise<void> {
     this.#mesh = undefined;
     await this.#show(scene, tables, true);
   }
@@ -257,7 +281,7 @@ export class App {
   }
 
   /** Bakes and drops a scene, and shows it; what was shown before stays if that fails. */
-  async #show(scene: SceneDocument, tables: typeof this.#tables, anew: boolean): Promise<boolean> {
+  async #show(scene: SceneDocument, tables: Tables | undefined, anew: boolean): Promise<boolean> {
     const asked = ++this.#asked;
     this.#stopMany();
     try {
@@ -294,7 +318,7 @@ export class App {
   async #stageRun(run: OpenedRun, anew: boolean): Promise<void> {
     this.#clear();
     const { description } = run;
-    const size = 2 * description.half_extents[2];
+    const size = 2 * description.half_extents[0];
     const [low, high] = bounds(run);
     const centre = low.clone().add(high).multiplyScalar(0.5);
     const radius = Math.max(0.5 * high.distanceTo(low), 3 * size);
@@ -440,7 +464,7 @@ export class App {
         : Array.from({ length: SEEDS }, (_, number) =>
             scene.with({ 'run.seed': scene.number('run.seed', 0) + number + 1 }),
           );
-    const size = 2 * main.run.description.half_extents[2];
+    const size = 2 * main.run.description.half_extents[0];
     const aside = comparison.kind === 'model' ? new Vector3(1.8 * size, 0, 0) : undefined;
     try {
       for (const [number, other] of others.entries()) {
@@ -472,8 +496,7 @@ export class App {
   async #startMany(): Promise<void> {
     const asked = ++this.#asked;
     const body = this.#scene.get('body') as Values;
-    const coarse =
-      body['shape'] === undefined ? this.#scene : this.#scene.with({ 'body.triangles': COARSE });
+    const coarse = body['shape'] === undefined ? this.#scene : this.#scene.with({ 'body.triangles': COARSE });
     try {
       const { room, shape, poses } = await this.#working('Letting 5,000 go', (news) =>
         this.#engine.call('startMany', [coarse.name, coarse.text(), MANY], news),
@@ -493,7 +516,7 @@ export class App {
       const reach = Math.max(side, height);
       const description = this.#showing[0]?.run.description;
       if (description !== undefined) {
-        const size = 2 * description.half_extents[2];
+        const size = 2 * description.half_extents[0];
         this.#view.surround({ ...description.stage, ground }, size, centre, 0.6 * reach);
       }
       byId<HTMLInputElement>('follow').checked = false;
@@ -520,12 +543,10 @@ export class App {
     }
   }
 
-  async #advanceMany(many: NonNullable<typeof this.#swarm>): Promise<void> {
+  async #advanceMany(many: Crowd): Promise<void> {
     many.waiting = true;
     try {
-      const { poses, milliseconds } = await this.#engine.call('advanceMany', [
-        this.#playback.rate / 60,
-      ]);
+      const { poses, milliseconds } = await this.#engine.call('advanceMany', [this.#playback.rate / 60]);
       many.simulation += 0.1 * (milliseconds - many.simulation) || milliseconds;
       if (this.#swarm === many) {
         many.swarm.show(poses);
@@ -556,7 +577,7 @@ export class App {
   }
 
   async #readMesh(
-    mesh: typeof this.#meshBytes,
+    mesh: MeshFile | undefined,
     unit: string | undefined,
     thickness: number | undefined,
   ): Promise<void> {
@@ -646,13 +667,13 @@ export class App {
 
   // The picture
 
-  #grabbable(): ReturnType<ConstructorParameters<typeof Throw>[1]['target']> {
+  #grabbable(): Grabbable | undefined {
     const [main] = this.#showing;
     const actor = main?.actors[0];
     if (main?.run.bodies.length !== 1 || actor === undefined || this.#swarm !== undefined) {
       return undefined;
     }
-    return { body: actor.mesh, size: 2 * main.run.description.half_extents[2] };
+    return { body: actor.mesh, size: 2 * main.run.description.half_extents[0] };
   }
 
   #length(): number {
@@ -678,7 +699,7 @@ export class App {
     if (main === undefined || this.#swarm !== undefined) {
       return;
     }
-    const size = 2 * main.run.description.half_extents[2];
+    const size = 2 * main.run.description.half_extents[0];
     if (this.#follows()) {
       const around = this.#comparison.kind === 'model' ? 13 : 9;
       this.#view.lookAt(this.#bodyNow(main), around * size);
@@ -722,7 +743,7 @@ export class App {
     this.#tell();
   }
 
-  #frameOfMany(many: NonNullable<typeof this.#swarm>): void {
+  #frameOfMany(many: Crowd): void {
     if (this.#playback.playing && !many.waiting) {
       void this.#advanceMany(many);
     }
@@ -742,7 +763,9 @@ export class App {
       own.times = run.times;
       const { frame, share } = own.between(Math.min(time, own.end));
       const crowd = actors.length > 1;
-      actors.forEach((actor) => actor.place(frame, share, trail === true && !crowd, copies === true && !crowd));
+      actors.forEach((actor) =>
+        actor.place(frame, share, trail === true && !crowd, copies === true && !crowd),
+      );
     }
     const [main] = this.#showing;
     if (main === undefined) {
@@ -775,7 +798,7 @@ export class App {
     if (arrows.visible) {
       const { description } = run;
       const gravity = Math.hypot(...description.gravity);
-      const size = 2 * description.half_extents[2];
+      const size = 2 * description.half_extents[0];
       const weight = description.mass * gravity || 1e-3;
       const place = actors[0]?.mesh.position ?? new Vector3();
       arrows.show(loads, place, weight, 1.4 * size, {
@@ -838,7 +861,7 @@ export class App {
     byId('clock').textContent = `${time.toFixed(2)} / ${this.#playback.end.toFixed(2)} s`;
     byId<HTMLInputElement>('time').value = String(time);
     byId('time').setAttribute('aria-valuetext', `${time.toFixed(2)} seconds`);
-    const size = 2 * description.half_extents[2];
+    const size = 2 * description.half_extents[0];
     const lines = [`${time.toFixed(2)} s`];
     const speed = curve(main.run, 'speed')?.[frame];
     if (speed !== undefined) {
@@ -860,7 +883,7 @@ export class App {
     const words = this.#playback.playing ? 'Pause' : 'Play';
     if (play.getAttribute('aria-label') !== words) {
       play.setAttribute('aria-label', words);
-      play.textContent = this.#playback.playing ? '⏸' : '▶';
+      play.dataset['playing'] = String(this.#playback.playing);
     }
   }
 
@@ -920,4 +943,3 @@ function meshWords(name: string, { triangles, size, mended, notices }: CheckedMe
   const sides = size.map(metres).join(' × ');
   return [`${name}: ${triangles.toLocaleString('en')} triangles, ${sides}`, ...mended, ...notices];
 }
-

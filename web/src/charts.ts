@@ -98,12 +98,7 @@ export class Charts {
     const playhead = h('div', { className: 'playhead' });
     const holder = h('div', { className: 'plot' }, playhead);
     const about = `${of.title} over time${of.unit === '' ? '' : `, ${of.unit}`}: ${this.#summary(columns, of)}`;
-    const figure = h(
-      'figure',
-      { className: 'chart' },
-      h('figcaption', {}, of.title, value),
-      holder,
-    );
+    const figure = h('figure', { className: 'chart' }, h('figcaption', {}, of.title, value), holder);
     holder.setAttribute('role', 'img');
     holder.setAttribute('aria-label', about);
     this.place.append(figure);

@@ -86,5 +86,8 @@ function isControl({ key, target }: KeyboardEvent): boolean {
   if (target.matches('button, summary')) {
     return key === ' ' || key === 'Home' || key === 'End';
   }
-  return target.matches('input, select, textarea, [role=tabpanel]') && !(target.matches('[role=tabpanel]') && key === ' ');
+  return (
+    target.matches('input, select, textarea, [role=tabpanel]') &&
+    !(target.matches('[role=tabpanel]') && key === ' ')
+  );
 }

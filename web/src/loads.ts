@@ -74,7 +74,9 @@ function header(words: string): HTMLElement {
 
 function size(loads: Float32Array, at: number, unit: number): string {
   const length = unit * new Vector3().fromArray(loads, at).length();
-  return length === 0 ? '–' : length.toPrecision(3).replace(/e.*/, '') === length.toPrecision(3)
-    ? length.toPrecision(3)
-    : length.toExponential(1);
+  return length === 0
+    ? '–'
+    : length.toPrecision(3).replace(/e.*/, '') === length.toPrecision(3)
+      ? length.toPrecision(3)
+      : length.toExponential(1);
 }

@@ -145,7 +145,14 @@ export class Panel {
         path,
         values.map((old, place) => (place === axis ? value / 1000 : Number(old))),
       );
-    return this.#several(id, words, 'mm', values.map((x) => 1000 * Number(x)), { min: 0 }, change);
+    return this.#several(
+      id,
+      words,
+      'mm',
+      values.map((x) => 1000 * Number(x)),
+      { min: 0 },
+      change,
+    );
   }
 
   #massOrDensity(body: Values): HTMLElement | undefined {
@@ -208,11 +215,7 @@ export class Panel {
       h('p', { className: 'hint', id: 'facts' }, facts.join('; ')),
       told.notices.length === 0
         ? undefined
-        : h(
-            'ul',
-            { className: 'notices hint' },
-            ...told.notices.map((notice) => h('li', {}, notice)),
-          ),
+        : h('ul', { className: 'notices hint' }, ...told.notices.map((notice) => h('li', {}, notice))),
     );
   }
 
@@ -374,8 +377,7 @@ export class Panel {
     const { kind } = this.#comparison;
     const value = this.#comparison.kind === 'model' ? this.#comparison.model : kind;
     const select = this.#choice('compare', 'With', value, choices, (key) => {
-      this.#comparison =
-        key === 'none' || key === 'seeds' ? { kind: key } : { kind: 'model', model: key };
+      this.#comparison = key === 'none' || key === 'seeds' ? { kind: key } : { kind: 'model', model: key };
       this.#events.compare(this.#comparison);
     });
     const many = h('input', { type: 'checkbox', id: 'many', checked: this.#many });
@@ -401,11 +403,7 @@ export class Panel {
     choices: [string, string][],
     change: (value: string) => void,
   ): HTMLElement {
-    const select = h(
-      'select',
-      { id },
-      ...choices.map(([value, words]) => h('option', { value }, words)),
-    );
+    const select = h('select', { id }, ...choices.map(([value, words]) => h('option', { value }, words)));
     select.value = value;
     select.addEventListener('change', () => change(select.value));
     return h('label', { className: 'field' }, h('span', {}, words), select);
@@ -487,7 +485,11 @@ export function bodyKey(body: Values): string {
   const same = (values: Values): boolean =>
     values['shape'] === body['shape'] && Object.keys(body).every((key) => key in values);
   const found = Object.entries(BODIES).find(([, { values }]) => values !== undefined && same(values));
-  const byScene: Record<string, string> = { samara: 'seed', 'paper-airplane': 'airplane', feather: 'feather' };
+  const byScene: Record<string, string> = {
+    samara: 'seed',
+    'paper-airplane': 'airplane',
+    feather: 'feather',
+  };
   return byScene[String(body['shape'])] ?? found?.[0] ?? 'own';
 }
 

@@ -40,7 +40,9 @@ export class Client<M extends Methods> {
   constructor(worker: Worker) {
     this.#worker = worker;
     worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => this.#take(data));
-    worker.addEventListener('error', (event) => this.fail(new Error(event.message || 'the engine did not load')));
+    worker.addEventListener('error', (event) =>
+      this.fail(new Error(event.message || 'the engine did not load')),
+    );
   }
 
   /** What the method returns; rejected with what it throws. */

@@ -1,6 +1,14 @@
 /** Thousands of bodies in the picture, each an instance of one shape. */
 
-import { DynamicDrawUsage, InstancedMesh, Matrix4, MeshLambertMaterial, Quaternion, Vector3, Color } from 'three';
+import {
+  DynamicDrawUsage,
+  InstancedMesh,
+  Matrix4,
+  MeshLambertMaterial,
+  Quaternion,
+  Vector3,
+  Color,
+} from 'three';
 import { geometryOf } from './actor';
 import type { SkinArrays } from './told';
 

@@ -2,7 +2,6 @@
 
 const CHOICES = ['system', 'light', 'dark'] as const;
 const WORDS = { system: 'as the system has them', light: 'light', dark: 'dark' };
-const SIGNS = { system: '◐', light: '☀', dark: '☾' };
 const KEPT = 'langevin-rigid-theme';
 
 export class Theme {
@@ -33,7 +32,7 @@ export class Theme {
     }
     const dark = choice === 'dark' || (choice === 'system' && this.#system.matches);
     dataset['shade'] = dark ? 'dark' : 'light';
-    this.button.textContent = SIGNS[choice];
+    this.button.title = `Colours: ${WORDS[choice]}`;
     this.button.setAttribute('aria-label', `Colours: ${WORDS[choice]}`);
     this.onChange();
   }

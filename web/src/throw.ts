@@ -8,9 +8,15 @@ const MEMORY = 0.1;
 /** Fastest throw (m/s). */
 const FASTEST = 30;
 
+/** A body, and a size around it that is easy to hit (m). */
+export interface Grabbable {
+  body: Object3D;
+  size: number;
+}
+
 export interface ThrowEvents {
-  /** What can be grabbed now: the body, and a size around it that is easy to hit (m). */
-  target(): { body: Object3D; size: number } | undefined;
+  /** What can be grabbed now. */
+  target(): Grabbable | undefined;
   grabbed(): void;
   moved(position: Vector3): void;
   released(position: Vector3, orientation: Quaternion, velocity: Vector3): void;
@@ -106,7 +112,10 @@ export class Throw {
     const before = held.path.find(({ time }) => time >= now - MEMORY);
     const velocity = new Vector3();
     if (last !== undefined && before !== undefined && now > before.time) {
-      velocity.copy(last.at).sub(before.at).divideScalar(now - before.time);
+      velocity
+        .copy(last.at)
+        .sub(before.at)
+        .divideScalar(now - before.time);
       velocity.clampLength(0, FASTEST);
     }
     this.#events.released(last?.at ?? held.body.position, held.body.quaternion, velocity);

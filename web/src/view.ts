@@ -182,7 +182,10 @@ export class View {
     const reach = Math.max(2 * this.#scale, this.camera.position.distanceTo(this.controls.target));
     const target = this.controls.target;
     this.#sun.target.position.copy(target);
-    this.#sun.position.set(0.45, 1, 0.35).multiplyScalar(4 * reach).add(target);
+    this.#sun.position
+      .set(0.45, 1, 0.35)
+      .multiplyScalar(4 * reach)
+      .add(target);
     const box = this.#sun.shadow.camera;
     const half = 1.2 * reach;
     Object.assign(box, { left: -half, right: half, top: half, bottom: -half, near: 0, far: 12 * reach });
@@ -239,10 +242,7 @@ function surroundings(stage: Stage, scale: number, centre: Vector3, radius: numb
     const [low, high] = stage.walls.map((corner) => new Vector3(...corner)) as [Vector3, Vector3];
     const sides = high.clone().sub(low);
     const box = new BoxGeometry(sides.x, sides.y, sides.z);
-    const edges = new LineSegments(
-      new EdgesGeometry(box),
-      new LineBasicMaterial({ color: colour('muted') }),
-    );
+    const edges = new LineSegments(new EdgesGeometry(box), new LineBasicMaterial({ color: colour('muted') }));
     box.dispose();
     edges.position.copy(low).add(high).multiplyScalar(0.5);
     group.add(edges);

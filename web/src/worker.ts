@@ -140,9 +140,7 @@ const methods = {
 
   pressures(_onProgress: OnProgress, slot: string, frame: number): Float32Array {
     const { session, run, skin } = place(slot);
-    return run === undefined || skin === undefined
-      ? new Float32Array()
-      : session.pressures(skin, run, frame);
+    return run === undefined || skin === undefined ? new Float32Array() : session.pressures(skin, run, frame);
   },
 
   /** Makes a scene ready for `landings` alone. */

@@ -17,11 +17,7 @@ use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use crate::curves::causes;
-use crate::many::Many;
-use crate::run::Run;
-use crate::session::Session;
-use crate::skin::Skin;
-use crate::{landings, meshes};
+use crate::{landings, many, meshes, run, session, skin};
 
 type Outcome<T> = Result<T, JsError>;
 
@@ -98,51 +94,64 @@ pub fn get_file(path: &str) -> Outcome<Vec<u8>> {
     Ok(files::read(Path::new(path))?)
 }
 
+/// [`session::Session`].
+#[wasm_bindgen]
+pub struct Session(session::Session);
+
+/// [`run::Run`].
+#[wasm_bindgen]
+pub struct Run(run::Run);
+
+/// [`skin::Skin`].
+#[wasm_bindgen]
+pub struct Skin(skin::Skin);
+
+/// [`many::Many`].
+#[wasm_bindgen]
+pub struct Many(many::Many);
+
 #[wasm_bindgen]
 impl Session {
-    /// Reads a scene and bakes its body; see [`Session::open`].
+    /// Reads a scene and bakes its body; see [`session::Session::open`].
     #[wasm_bindgen(constructor)]
-    pub fn of_text(name: &str, text: &str) -> Outcome<Session> {
-        Ok(Self::open(
+    pub fn open(name: &str, text: &str) -> Outcome<Session> {
+        Ok(Self(session::Session::open(
             name,
             text,
             Some(Path::new(BAKES)),
             &PageProgress,
-        )?)
+        )?))
     }
 
     /// The scene in words and numbers, as JSON: [`crate::describe::Description`].
-    #[wasm_bindgen(js_name = describe)]
-    pub fn described(&self) -> Outcome<String> {
-        json(&self.describe())
+    pub fn describe(&self) -> Outcome<String> {
+        json(&self.0.describe())
     }
 
     /// The skin of one of its kinds of bodies.
-    #[wasm_bindgen(js_name = skin)]
-    pub fn skin_of(&self, kind: usize) -> Outcome<Skin> {
-        let body = self.kinds().nth(kind).map(|(_, body)| body);
-        Ok(Skin::new(body.ok_or_else(|| {
-            JsError::new("there is no such kind of body")
-        })?))
+    pub fn skin(&self, kind: usize) -> Outcome<Skin> {
+        let body = self.0.kinds().nth(kind).map(|(_, body)| body);
+        let body = body.ok_or_else(|| JsError::new("there is no such kind of body"))?;
+        Ok(Skin(skin::Skin::new(body)))
     }
 
-    /// See [`Session::drop`].
-    #[wasm_bindgen(js_name = drop)]
-    pub fn dropped(&self) -> Outcome<Run> {
-        Ok(self.drop(&PageProgress)?)
+    /// See [`session::Session::drop`].
+    pub fn drop(&self) -> Outcome<Run> {
+        Ok(Run(self.0.drop(&PageProgress)?))
     }
 
-    /// See [`Session::replay`]; from the tables as text.
-    #[wasm_bindgen(js_name = replay)]
-    pub fn replayed(&self, trajectory: &str, bodies: Option<String>) -> Outcome<Run> {
+    /// See [`session::Session::replay`]; from the tables as text.
+    pub fn replay(&self, trajectory: &str, bodies: Option<String>) -> Outcome<Run> {
         let rows = bodies.as_deref().map(read_bodies).transpose()?;
-        Ok(self.replay(read_csv(trajectory)?, &rows.unwrap_or_default())?)
+        let trajectories = read_csv(trajectory)?;
+        Ok(Run(self
+            .0
+            .replay(trajectories, &rows.unwrap_or_default())?))
     }
 
     /// The curves of a run, one after the other, in the order of [`crate::curves::Curves`].
-    #[wasm_bindgen(js_name = curves)]
-    pub fn curve_numbers(&self, run: &Run) -> Vec<f32> {
-        let curves = self.curves(run);
+    pub fn curves(&self, run: &Run) -> Vec<f32> {
+        let curves = self.0.curves(&run.0);
         let columns = [
             curves.speed,
             curves.tilt,
@@ -154,39 +163,34 @@ impl Session {
         columns.concat()
     }
 
-    /// See [`Session::loads`].
-    #[wasm_bindgen(js_name = loads)]
-    pub fn load_numbers(&self, run: &Run) -> Vec<f32> {
-        self.loads(run)
+    /// See [`session::Session::loads`].
+    pub fn loads(&self, run: &Run) -> Vec<f32> {
+        self.0.loads(&run.0)
     }
 
-    /// See [`Session::flow`].
-    #[wasm_bindgen(js_name = flow)]
-    pub fn flow_numbers(&self, run: &Run) -> Vec<f32> {
-        self.flow(run)
+    /// See [`session::Session::flow`].
+    pub fn flow(&self, run: &Run) -> Vec<f32> {
+        self.0.flow(&run.0)
     }
 
     /// Pressures (Pa) at a frame, at the vertices of the skin; empty where there is no such frame.
-    #[wasm_bindgen(js_name = pressures)]
-    pub fn pressures_at(&self, skin: &Skin, run: &Run, frame: usize) -> Vec<f32> {
-        let state = run.states().get(frame);
-        state.map_or_else(Vec::new, |state| self.pressures(skin, state))
+    pub fn pressures(&self, skin: &Skin, run: &Run, frame: usize) -> Vec<f32> {
+        let state = run.0.states().get(frame);
+        state.map_or_else(Vec::new, |state| self.0.pressures(&skin.0, state))
     }
 
     /// The ends of the falls of some runs of the scene's ensemble, as JSON: [`landings::Landing`].
-    #[wasm_bindgen(js_name = landings)]
-    pub fn landings_of(&self, from: u32, to: u32) -> Outcome<String> {
-        let landings: Vec<landings::Landing> = self.landings(from..to);
+    pub fn landings(&self, from: u32, to: u32) -> Outcome<String> {
+        let landings: Vec<landings::Landing> = self.0.landings(from..to);
         json(&landings)
     }
 
     /// The run as a file: `glb`, `csv` or `usd`.
-    #[wasm_bindgen(js_name = export)]
-    pub fn exported(&self, run: &Run, format: &str, fps: f64) -> Outcome<Vec<u8>> {
+    pub fn export(&self, run: &Run, format: &str, fps: f64) -> Outcome<Vec<u8>> {
         let format: Format = format.parse()?;
-        let cast = Cast::new(self.prepared())?;
+        let cast = Cast::new(self.0.prepared())?;
         let kinds = cast.kinds();
-        let bodies = run.bodies().iter().zip(run.trajectories());
+        let bodies = run.0.bodies().iter().zip(run.0.trajectories());
         let bodies: Vec<RecordedBody<'_>> = bodies
             .map(|(body, trajectory): (_, &Trajectory)| RecordedBody {
                 kind: body.kind,
@@ -195,7 +199,7 @@ impl Session {
             })
             .collect();
         let recording = Recording {
-            conditions: self.prepared().scene().conditions(),
+            conditions: self.0.prepared().scene().conditions(),
             kinds: &kinds,
             bodies: &bodies,
         };
@@ -213,21 +217,18 @@ impl Session {
 #[wasm_bindgen]
 impl Run {
     /// Its bodies, as JSON: [`crate::run::Body`].
-    #[wasm_bindgen(js_name = bodies)]
-    pub fn bodies_told(&self) -> Outcome<String> {
-        json(&self.bodies())
+    pub fn bodies(&self) -> Outcome<String> {
+        json(&self.0.bodies())
     }
 
     /// Time of each frame (s).
-    #[wasm_bindgen(js_name = times)]
-    pub fn frame_times(&self) -> Vec<f64> {
-        self.frames().times.clone()
+    pub fn times(&self) -> Vec<f64> {
+        self.0.frames().times.clone()
     }
 
     /// Poses of the body in this place: seven numbers a frame from its first.
-    #[wasm_bindgen(js_name = poses)]
-    pub fn poses_of(&self, place: usize) -> Vec<f32> {
-        let poses = self.frames().poses.get(place);
+    pub fn poses(&self, place: usize) -> Vec<f32> {
+        let poses = self.0.frames().poses.get(place);
         poses.map_or_else(Vec::new, |poses| poses.as_flattened().to_vec())
     }
 }
@@ -235,48 +236,42 @@ impl Run {
 #[wasm_bindgen]
 impl Skin {
     /// Three numbers a vertex.
-    #[wasm_bindgen(js_name = positions)]
-    pub fn position_numbers(&self) -> Vec<f32> {
-        self.positions.as_flattened().to_vec()
+    pub fn positions(&self) -> Vec<f32> {
+        self.0.positions.as_flattened().to_vec()
     }
 
     /// Three numbers a vertex.
-    #[wasm_bindgen(js_name = normals)]
-    pub fn normal_numbers(&self) -> Vec<f32> {
-        self.normals.as_flattened().to_vec()
+    pub fn normals(&self) -> Vec<f32> {
+        self.0.normals.as_flattened().to_vec()
     }
 
     /// Three numbers a triangle.
-    #[wasm_bindgen(js_name = triangles)]
-    pub fn triangle_numbers(&self) -> Vec<u32> {
-        self.triangles.as_flattened().to_vec()
+    pub fn triangles(&self) -> Vec<u32> {
+        self.0.triangles.as_flattened().to_vec()
     }
 }
 
 #[wasm_bindgen]
 impl Many {
-    /// See [`Many::new`].
+    /// See [`many::Many::new`].
     #[wasm_bindgen(constructor)]
-    pub fn of_session(session: &Session, count: u32) -> Many {
-        Self::new(session, count)
+    pub fn new(session: &Session, count: u32) -> Many {
+        Self(many::Many::new(&session.0, count))
     }
 
-    /// See [`Many::advance`].
-    #[wasm_bindgen(js_name = advance)]
-    pub fn advanced(&mut self, session: &Session, duration: f64) {
-        self.advance(session, duration);
+    /// See [`many::Many::advance`].
+    pub fn advance(&mut self, session: &Session, duration: f64) {
+        self.0.advance(&session.0, duration);
     }
 
-    /// See [`Many::poses`].
-    #[wasm_bindgen(js_name = poses)]
-    pub fn pose_numbers(&self) -> Vec<f32> {
-        self.poses().to_vec()
+    /// See [`many::Many::poses`].
+    pub fn poses(&self) -> Vec<f32> {
+        self.0.poses().to_vec()
     }
 
-    /// See [`Many::room`]: sides, then the middle on the ground.
-    #[wasm_bindgen(js_name = room)]
-    pub fn room_numbers(&self) -> Vec<f64> {
-        self.room().as_flattened().to_vec()
+    /// See [`many::Many::room`]: sides, then the middle on the ground.
+    pub fn room(&self) -> Vec<f64> {
+        self.0.room().as_flattened().to_vec()
     }
 }
 

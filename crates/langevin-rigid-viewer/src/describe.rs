@@ -27,7 +27,7 @@ pub struct Description {
     pub fluid_density: f64,
     /// Kinematic viscosity of the fluid (m^2/s).
     pub fluid_viscosity: f64,
-    /// Half-extents along its principal axes, ascending (m).
+    /// Half-extents along its principal axes, descending (m).
     pub half_extents: Vec3,
     /// Diagonal of the added mass in the fluid: kg, then kg m^2.
     pub added_mass: [f64; 6],

@@ -33,7 +33,7 @@
 //! numbers for what is long. Files are those that the page [handed over](langevin_rigid_formats::files).
 
 #[cfg(target_arch = "wasm32")]
-mod binding;
+pub mod binding;
 pub mod curves;
 pub mod describe;
 pub mod landings;

@@ -15,7 +15,6 @@ const ROOM: f64 = 6.0;
 
 /// Bodies under way in a box that stands on the ground. They meet the fluid and its wind, not each other.
 #[derive(Debug)]
-#[cfg_attr(target_arch = "wasm32", wasm_bindgen::prelude::wasm_bindgen)]
 pub struct Many {
     batch: Batch<f32>,
     /// Number of the release of each.
@@ -34,7 +33,7 @@ impl Many {
         let top = scene.release.position;
         let ground = scene.stop.ground.filter(|ground| *ground < top[1]);
         let ground = ground.unwrap_or(top[1] - 3.0);
-        let side = (ROOM * f64::from(count)).sqrt() * 2.0 * body.half_extents[2];
+        let side = (ROOM * f64::from(count)).sqrt() * 2.0 * body.half_extents[0];
         // The poorest seat is taken: all heights as likely.
         let height = top[1] - ground;
         let over = [side, height, side];

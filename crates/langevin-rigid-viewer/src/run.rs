@@ -18,7 +18,6 @@ const MOST_POSES: usize = 4_000_000;
 
 /// What bodies did.
 #[derive(Debug, Clone)]
-#[cfg_attr(target_arch = "wasm32", wasm_bindgen::prelude::wasm_bindgen)]
 pub struct Run {
     bodies: Vec<Body>,
     trajectories: Vec<Trajectory>,

@@ -18,7 +18,6 @@ const MOST_STATES: usize = 1_000_000;
 
 /// A scene with its bake and its stepper.
 #[derive(Debug)]
-#[cfg_attr(target_arch = "wasm32", wasm_bindgen::prelude::wasm_bindgen)]
 pub struct Session {
     prepared: Prepared,
 }

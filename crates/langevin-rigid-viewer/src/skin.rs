@@ -13,7 +13,6 @@ const SHARP: f64 = 0.766;
 
 /// The panels of a body with vertices for drawing: one for each smooth part of the surface that meets there.
 #[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(target_arch = "wasm32", wasm_bindgen::prelude::wasm_bindgen)]
 pub struct Skin {
     /// Positions from the centre of mass (m), body frame.
     pub positions: Vec<[f32; 3]>,
