@@ -10,7 +10,7 @@ import {
   DirectionalLight,
   DoubleSide,
   EdgesGeometry,
-  GridHelper,
+  Fog,
   Group,
   HemisphereLight,
   LineBasicMaterial,
@@ -23,6 +23,7 @@ import {
   PerspectiveCamera,
   PlaneGeometry,
   Quaternion,
+  RepeatWrapping,
   SRGBColorSpace,
   Scene,
   Vector3,
@@ -42,6 +43,7 @@ export function dispose(object: Object3D): void {
     if (part instanceof Mesh || part instanceof LineSegments) {
       part.geometry.dispose();
       for (const material of [part.material].flat()) {
+        (material as MeshStandardMaterial).map?.dispose();
         material.dispose();
       }
     }
@@ -103,7 +105,7 @@ export class View {
     if (paint !== null) {
       const sky = paint.createLinearGradient(0, 0, 0, 256);
       sky.addColorStop(0, colour('sky-top'));
-      sky.addColorStop(1, colour('sky-bottom'));
+      sky.addColorStop(0.45, colour('sky-bottom'));
       paint.fillStyle = sky;
       paint.fillRect(0, 0, 2, 256);
     }
@@ -120,11 +122,13 @@ export class View {
     this.#scale = scale;
     this.#stage = () => {
       dispose(this.#surroundings);
+      this.scene.fog?.color.set(colour('sky-bottom'));
       this.#surroundings = surroundings(stage, scale, centre, radius);
       this.scene.add(this.#surroundings);
     };
     this.#stage();
     this.#ground = stage.ground ?? Number.NEGATIVE_INFINITY;
+    this.scene.fog = new Fog(colour('sky-bottom'), 5 * radius, 12 * radius);
     this.camera.near = scale / 200;
     this.camera.far = Math.max(200 * scale, 60 * radius);
     this.camera.updateProjectionMatrix();
@@ -215,13 +219,17 @@ function surroundings(stage: Stage, scale: number, centre: Vector3, radius: numb
   const group = new Group();
   const reach = 4 * radius;
   if (stage.ground !== null) {
+    const step = gridStep(scale);
+    // As many whole cells as make a ground without end, which the fog hides.
+    const half = 8 * step * Math.ceil((12 * radius) / (8 * step));
     const ground = new Mesh(
-      new CircleGeometry(12 * radius, 96).rotateX(-Math.PI / 2),
-      new MeshLambertMaterial({ color: colour('ground') }),
+      new CircleGeometry(half, 96).rotateX(-Math.PI / 2),
+      new MeshLambertMaterial({ map: lines(step, 2 * half) }),
     );
     ground.receiveShadow = true;
-    ground.position.set(centre.x, stage.ground - 1e-3 * scale, centre.z);
-    group.add(ground, grid(stage.ground, scale, centre, reach));
+    const round = (place: number): number => Math.round(place / step) * step;
+    ground.position.set(round(centre.x), stage.ground - 1e-3 * scale, round(centre.z));
+    group.add(ground);
   }
   if (stage.water !== null) {
     const water = new Mesh(
@@ -271,19 +279,26 @@ function surroundings(stage: Stage, scale: number, centre: Vector3, radius: numb
   return group;
 }
 
-function grid(height: number, scale: number, centre: Vector3, reach: number): GridHelper {
-  let step = gridStep(scale);
-  while (reach / step > 100) {
-    step *= 10;
+/** Lines at every `step` (m), on a surface whose texture is `across` wide (m). */
+function lines(step: number, across: number): CanvasTexture {
+  const cells = 4;
+  const canvas = Object.assign(document.createElement('canvas'), { width: 512, height: 512 });
+  const paint = canvas.getContext('2d');
+  if (paint !== null) {
+    paint.fillStyle = colour('ground');
+    paint.fillRect(0, 0, 512, 512);
+    paint.fillStyle = colour('grid');
+    paint.globalAlpha = 0.5;
+    for (let cell = 0; cell < cells; cell++) {
+      const at = (cell * 512) / cells;
+      paint.fillRect(at, 0, 3, 512);
+      paint.fillRect(0, at, 512, 3);
+    }
   }
-  const half = Math.ceil(reach / step);
-  const lines = new GridHelper(2 * half * step, 2 * half, colour('grid'), colour('grid'));
-  lines.material.transparent = true;
-  lines.material.opacity = 0.5;
-  lines.position.set(
-    Math.round(centre.x / step) * step,
-    height + 1e-3 * scale,
-    Math.round(centre.z / step) * step,
-  );
-  return lines;
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  texture.repeat.setScalar(across / (cells * step));
+  texture.anisotropy = 16;
+  return texture;
 }
