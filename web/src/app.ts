@@ -725,6 +725,19 @@ export class App {
     return place;
   }
 
+  /** A distance from which both of two compared bodies are seen; none where they are. */
+  #wideEnough(): number | undefined {
+    const other = this.#showing.find(({ slot }) => slot === 'model')?.actors[0];
+    const own = this.#showing[0]?.actors[0];
+    if (other === undefined || own === undefined) {
+      return undefined;
+    }
+    const there = other.mesh.position.clone().add(other.group.position);
+    const wide = 2.2 * own.mesh.position.distanceTo(there);
+    const { camera, controls } = this.#view;
+    return wide > camera.position.distanceTo(controls.target) ? wide : undefined;
+  }
+
   #frame(now: number): void {
     requestAnimationFrame((next) => this.#frame(next));
     const seconds = Math.min(0.1, Math.max(0, (now - this.#last) / 1000));
@@ -772,7 +785,7 @@ export class App {
       return;
     }
     if (this.#follows()) {
-      this.#view.lookAt(this.#bodyNow(main));
+      this.#view.lookAt(this.#bodyNow(main), this.#wideEnough());
     }
     this.#showLoads(main);
     void this.#showPressure(main);

@@ -8,12 +8,12 @@ import { type CurveName, type OpenedRun, curve } from './told';
 /** Points of a curve at most: more than a screen has. */
 const MOST = 1200;
 
-const SHOWN: { name: CurveName; title: string; unit: string; digits: number; range?: [number, number] }[] = [
+const SHOWN: { name: CurveName; title: string; unit: string; digits: number; ticks?: number[] }[] = [
   { name: 'speed', title: 'Speed', unit: 'm/s', digits: 2 },
-  { name: 'tilt', title: 'Tilt', unit: '°', digits: 0, range: [0, 180] },
+  { name: 'tilt', title: 'Tilt', unit: '°', digits: 0, ticks: [0, 90, 180] },
   { name: 'spin', title: 'Spin', unit: 'turns/s', digits: 2 },
   { name: 'energy', title: 'Energy', unit: 'mJ', digits: 3 },
-  { name: 'attachment', title: 'Attachment of the flow', unit: '', digits: 2, range: [0, 1] },
+  { name: 'attachment', title: 'Attachment of the flow', unit: '', digits: 2, ticks: [0, 0.5, 1] },
 ];
 
 /** A run with the colour of its curves. */
@@ -110,10 +110,10 @@ export class Charts {
         height: 96,
         legend: { show: false },
         cursor: { y: false, sync: { key: 'run' }, points: { size: 5 }, drag: { setScale: false } },
-        scales: { x: { time: false }, ...(of.range ? { y: { range: of.range } } : {}) },
+        scales: { x: { time: false }, ...(of.ticks ? { y: { range: [0, of.ticks.at(-1) ?? 1] } } : {}) },
         axes: [
           { ...axis, size: 20, gap: 1, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
-          { ...axis, size: 42, gap: 3, space: 24 },
+          { ...axis, size: 42, gap: 3, space: 24, ...(of.ticks ? { splits: of.ticks } : {}) },
         ],
         series: [
           {},

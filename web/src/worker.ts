@@ -167,7 +167,7 @@ const methods = {
     many?.free();
     const session = opened('many', name, text);
     many = new Many(session, count);
-    const skin = session.skin(0);
+    const skin = session.coarse_skin();
     const shape = {
       positions: skin.positions(),
       normals: skin.normals(),

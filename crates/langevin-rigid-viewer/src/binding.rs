@@ -135,6 +135,11 @@ impl Session {
         Ok(Skin(skin::Skin::new(body)))
     }
 
+    /// The skin of its own body for drawing many of it.
+    pub fn coarse_skin(&self) -> Skin {
+        Skin(skin::Skin::coarse(self.0.prepared().body()))
+    }
+
     /// See [`session::Session::drop`].
     pub fn drop(&self) -> Outcome<Run> {
         Ok(Run(self.0.drop(&PageProgress)?))

@@ -16,7 +16,7 @@ const ROOM: f64 = 6.0;
 /// Bodies under way in a box that stands on the ground. They meet the fluid and its wind, not each other.
 #[derive(Debug)]
 pub struct Many {
-    batch: Batch<f32>,
+    batch: Batch<f64>,
     /// Number of the release of each.
     releases: Vec<u32>,
     poses: Vec<f32>,

@@ -4,32 +4,40 @@ use std::collections::BTreeMap;
 
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::linalg::vector::{add, cross, dot, norm, scale, sub};
-use langevin_rigid::{Body, State};
+use langevin_rigid::{Body, State, Surface};
 
 use crate::session::Session;
 
 /// Cosine of the angle between two faces beyond which the edge between them is drawn sharp: 40 degrees.
 const SHARP: f64 = 0.766;
 
-/// The panels of a body with vertices for drawing: one for each smooth part of the surface that meets there.
+/// The faces of a body with vertices for drawing: one for each smooth part of the surface that meets there.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Skin {
     /// Positions from the centre of mass (m), body frame.
     pub positions: Vec<[f32; 3]>,
     /// Unit normals, outwards.
     pub normals: Vec<[f32; 3]>,
-    /// Corners of each panel.
+    /// Corners of each face.
     pub triangles: Vec<[u32; 3]>,
-    /// The panels around each vertex with their shares.
+    /// The faces around each vertex with their shares.
     around: Vec<Vec<(u32, f32)>>,
 }
 
 impl Skin {
-    /// The skin of a body.
+    /// The skin of a body, of its panels.
     pub fn new(body: &Body) -> Self {
-        let surface = &body.surface;
-        let areas: Vec<Vec3> = surface
-            .panels
+        Self::of(&body.surface, &body.surface.panels)
+    }
+
+    /// The skin of the triangles that the body was given as: fewer, for bodies of which there are many. There is no pressure
+    /// on it.
+    pub fn coarse(body: &Body) -> Self {
+        Self::of(&body.surface, &body.surface.triangles)
+    }
+
+    fn of(surface: &Surface, faces: &[[u32; 3]]) -> Self {
+        let areas: Vec<Vec3> = faces
             .iter()
             .map(|panel| {
                 let [a, b, c] = panel.map(|vertex| surface.vertices[vertex as usize]);
@@ -37,13 +45,13 @@ impl Skin {
             })
             .collect();
         let mut corners: BTreeMap<u32, Vec<(usize, usize)>> = BTreeMap::new();
-        for (panel, vertices) in surface.panels.iter().enumerate() {
+        for (panel, vertices) in faces.iter().enumerate() {
             for (corner, vertex) in vertices.iter().enumerate() {
                 corners.entry(*vertex).or_default().push((panel, corner));
             }
         }
         let mut skin = Self {
-            triangles: vec![[0; 3]; surface.panels.len()],
+            triangles: vec![[0; 3]; faces.len()],
             ..Self::default()
         };
         for (vertex, corners) in corners {
