@@ -520,7 +520,8 @@ export class App {
         this.#view.surround({ ...description.stage, ground }, size, centre, 0.6 * reach);
       }
       byId<HTMLInputElement>('follow').checked = false;
-      this.#view.lookAt(centre, 1.9 * reach);
+      this.#view.lookFrom(new Vector3(0.35, 0.1, 1));
+      this.#view.lookAt(centre, 0.8 * reach);
       this.#playback.playing = !reducedMotion();
       document.body.dataset['many'] = 'on';
     } catch (error) {

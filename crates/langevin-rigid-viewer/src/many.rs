@@ -12,7 +12,7 @@ use crate::session::Session;
 const LONGEST_PART: f64 = 1.6;
 
 /// Horizontal room of a body, in squares of its length.
-const ROOM: f64 = 6.0;
+const ROOM: f64 = 3.0;
 
 /// Bodies under way in a box that stands on the ground. They meet the fluid and its wind, not each other.
 #[derive(Debug)]
