@@ -852,8 +852,9 @@ export class App {
       const now = typical(pressures);
       pressure.most = pressure.most === 0 ? now : pressure.most + 0.08 * (now - pressure.most);
       main.actors[0]?.paint(coloured(pressures, pressure.most));
-      byId('pressure-low').textContent = `−${pressure.most.toPrecision(2)} Pa`;
-      byId('pressure-high').textContent = `${pressure.most.toPrecision(2)} Pa`;
+      const round = Number(pressure.most.toPrecision(2));
+      byId('pressure-low').textContent = `−${round} Pa`;
+      byId('pressure-high').textContent = `${round} Pa`;
     } catch (error) {
       byId<HTMLInputElement>('pressure').checked = false;
       this.#switchPressure();
