@@ -8,8 +8,15 @@ export default defineConfig({
   testDir: 'tests',
   forbidOnly: true,
   reporter: 'line',
+  workers: 2,
+  // Drawing in software takes its time.
+  timeout: 180_000,
+  expect: { timeout: 30_000 },
   use: {
     baseURL: process.env['TEST_URL'] ?? served,
+    viewport: { width: 800, height: 600 },
+    // Nothing moves by itself, but where a test lets it.
+    contextOptions: { reducedMotion: 'reduce' },
     launchOptions: {
       // The distribution's browser, or else Playwright's own.
       ...(existsSync(browser) ? { executablePath: browser } : {}),

@@ -260,12 +260,11 @@ export class App {
 
   /** Opens a scene that has nothing to do with the one before. */
   async #open(scene: SceneDocument, tables?: Tables | undefined): Promise<void> {
-    this.#mesh = undefined;
-    await this.#show(scene, tables, true);
+    await this.#show(scene, tables, true, undefined);
   }
 
   async #change(changes: Values): Promise<void> {
-    await this.#show(this.#scene.with(changes), undefined, false);
+    await this.#show(this.#scene.with(changes), undefined, false, this.#mesh);
   }
 
   async #chooseBody(key: string): Promise<void> {
@@ -273,15 +272,19 @@ export class App {
     if (choice === undefined) {
       return;
     }
-    this.#mesh = undefined;
     const text = choice.scene === undefined ? undefined : this.#textOf(choice.scene);
     const body = text === undefined ? choice.values : SceneDocument.parse(key, text).get('body');
     const scene = this.#scene.with({ body, 'run.model': undefined, turbulence: undefined }, key, new Map());
-    await this.#show(scene, undefined, true);
+    await this.#show(scene, undefined, true, undefined);
   }
 
   /** Bakes and drops a scene, and shows it; what was shown before stays if that fails. */
-  async #show(scene: SceneDocument, tables: Tables | undefined, anew: boolean): Promise<boolean> {
+  async #show(
+    scene: SceneDocument,
+    tables: Tables | undefined,
+    anew: boolean,
+    mesh: MeshTold | undefined,
+  ): Promise<void> {
     const asked = ++this.#asked;
     this.#stopMany();
     try {
@@ -297,20 +300,19 @@ export class App {
         this.#engine.call('open', ['main', ended.name, ended.text(), tables], news),
       );
       if (asked !== this.#asked) {
-        return false;
+        return;
       }
       this.#scene = ended;
+      this.#mesh = mesh;
       this.#tables = tables;
       this.#trouble(run.bodies.find(({ trouble }) => trouble !== null)?.trouble ?? undefined);
       await this.#stageRun(run, anew);
       void this.#writeLink();
-      return true;
     } catch (error) {
       if (asked === this.#asked) {
         this.#trouble(error instanceof Stopped ? 'Stopped. The scene before is still here.' : error);
         this.#panel.show(this.#scene, this.#showing[0]?.run.description, this.#mesh);
       }
-      return false;
     }
   }
 
@@ -616,11 +618,7 @@ export class App {
         name.replace(/\.[^.]*$/, ''),
         new Map([[path, content]]),
       );
-      const before = this.#mesh;
-      this.#mesh = told;
-      if (!(await this.#show(scene, undefined, true))) {
-        this.#mesh = before;
-      }
+      await this.#show(scene, undefined, true, told);
     } catch (error) {
       if (error instanceof Stopped) {
         return;
@@ -853,8 +851,9 @@ export class App {
       const now = typical(pressures);
       pressure.most = pressure.most === 0 ? now : pressure.most + 0.08 * (now - pressure.most);
       main.actors[0]?.paint(coloured(pressures, pressure.most));
-      byId('pressure-low').textContent = `−${pressure.most.toPrecision(2)} Pa`;
-      byId('pressure-high').textContent = `${pressure.most.toPrecision(2)} Pa`;
+      const round = Number(pressure.most.toPrecision(2));
+      byId('pressure-low').textContent = `−${round} Pa`;
+      byId('pressure-high').textContent = `${round} Pa`;
     } catch (error) {
       byId<HTMLInputElement>('pressure').checked = false;
       this.#switchPressure();

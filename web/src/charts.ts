@@ -45,6 +45,7 @@ export class Charts {
 
   show(runs: Charted[]): void {
     this.#runs = runs.filter(({ run }) => run.curves.length > 0);
+    this.place.dataset['runs'] = String(this.#runs.length);
     this.#rebuild();
   }
 

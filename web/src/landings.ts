@@ -142,7 +142,10 @@ export class Landings {
       paint.beginPath();
       paint.arc(width / 2, height / 2, radius * scale, 0, 2 * Math.PI);
       paint.stroke();
-      paint.fillText(metres(radius), width / 2 + 6, height / 2 - radius * scale - 6);
+      const top = height / 2 - radius * scale - 6;
+      if (top > 24) {
+        paint.fillText(metres(radius), width / 2 + 6, top);
+      }
     }
     paint.globalAlpha = 0.75;
     for (const { place, motion } of down) {

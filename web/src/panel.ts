@@ -115,7 +115,7 @@ export class Panel {
     open.addEventListener('click', () => file.click());
 
     const parts: (HTMLElement | undefined)[] = [
-      this.#choice('body', 'Body', bodyKey(body), this.#bodyChoices(body), (key) => this.#events.body(key)),
+      this.#choice('body', 'Body', bodyKey(scene), this.#bodyChoices(scene), (key) => this.#events.body(key)),
       ...Object.entries(DIMENSIONS)
         .filter(([key]) => typeof body[key] === 'number' || typeof body[key] === 'bigint')
         .map(([key, words]) =>
@@ -134,9 +134,9 @@ export class Panel {
     return h('fieldset', {}, h('legend', {}, 'Body'), ...parts.filter((part) => part !== undefined));
   }
 
-  #bodyChoices(body: Values): [string, string][] {
+  #bodyChoices(scene: SceneDocument): [string, string][] {
     const built = Object.entries(BODIES).map(([key, { words }]): [string, string] => [key, words]);
-    return bodyKey(body) === 'own' ? [['own', 'That of the scene'], ...built] : built;
+    return bodyKey(scene) === 'own' ? [['own', 'That of the scene'], ...built] : built;
   }
 
   #dimensions(id: string, path: string, words: string, values: number[]): HTMLElement {
@@ -480,17 +480,20 @@ function input(
   return box;
 }
 
-/** Which of `BODIES` a body table is. */
-export function bodyKey(body: Values): string {
+/** Which of `BODIES` the body of a scene is: the one that names the scene, where several have its shape. */
+function bodyKey(scene: SceneDocument): string {
+  const body = scene.get('body') as Values;
   const same = (values: Values): boolean =>
     values['shape'] === body['shape'] && Object.keys(body).every((key) => key in values);
-  const found = Object.entries(BODIES).find(([, { values }]) => values !== undefined && same(values));
+  const found = Object.entries(BODIES)
+    .filter(([, { values }]) => values !== undefined && same(values))
+    .map(([key]) => key);
   const byScene: Record<string, string> = {
     samara: 'seed',
     'paper-airplane': 'airplane',
     feather: 'feather',
   };
-  return byScene[String(body['shape'])] ?? found?.[0] ?? 'own';
+  return byScene[String(body['shape'])] ?? found.find((key) => key === scene.name) ?? found[0] ?? 'own';
 }
 
 function fluidKey(fluid: Values): string {
