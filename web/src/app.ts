@@ -331,7 +331,7 @@ export class App {
     this.#playback.glimpse = undefined;
     this.#playback.playing = !reducedMotion();
     this.#pressure = { frame: -1, waiting: false, most: 0 };
-    this.#loadsTable?.begin(run.loads);
+    this.#loadsTable?.begin(run);
     this.#landings.show(this.#scene);
     this.#panel.comparison = this.#comparison;
     this.#panel.show(this.#scene, description, this.#mesh);
@@ -342,7 +342,7 @@ export class App {
     slider.max = String(this.#playback.end);
     const alone = run.bodies.length === 1;
     for (const id of ['forces', 'torques', 'pressure']) {
-      byId<HTMLInputElement>(id).disabled = !alone;
+      byId<HTMLInputElement>(id).disabled = run.loads.length === 0;
     }
     this.#view.canvas.setAttribute('aria-label', this.#inWords(run));
     byId('said').textContent = this.#inWords(run);
@@ -834,7 +834,7 @@ export class App {
   }
 
   async #showPressure(main: Showing): Promise<void> {
-    const wanted = byId<HTMLInputElement>('pressure').checked && main.run.bodies.length === 1;
+    const wanted = byId<HTMLInputElement>('pressure').checked && main.run.loads.length > 0;
     const frame = this.#frameOf(main);
     const pressure = this.#pressure;
     if (!wanted || pressure.waiting || pressure.frame === frame) {
