@@ -10,7 +10,7 @@ import { Downloads } from './downloads';
 import { Engine, Stopped } from './engine';
 import { Keys } from './keys';
 import { Landings, metres } from './landings';
-import { ofFragment, toFragment } from './link';
+import { type Linked, ofFragment, toFragment } from './link';
 import { LoadsTable } from './loads';
 import { type Opened, fetchOpened } from './opened';
 import { type Comparison, type MeshTold, Panel } from './panel';
@@ -124,7 +124,10 @@ export class App {
     byId<HTMLSelectElement>('scene').addEventListener('change', ({ target }) => {
       void this.#openBuiltIn((target as HTMLSelectElement).value);
     });
-    byId('work-stop').addEventListener('click', () => this.#engine.stop());
+    byId('work-stop').addEventListener('click', () => {
+      this.#engine.stop();
+      void this.#reopen();
+    });
     byId('trouble')
       .querySelector('button')
       ?.addEventListener('click', () => this.#trouble(undefined));
@@ -219,7 +222,7 @@ export class App {
     try {
       const linked = await ofFragment(location.hash, (name) => this.#textOf(name));
       if (linked !== undefined) {
-        await this.#open(linked);
+        await this.#openLinked(linked);
         return;
       }
       const opened = await fetchOpened();
@@ -237,10 +240,18 @@ export class App {
     try {
       const linked = await ofFragment(location.hash, (name) => this.#textOf(name));
       if (linked !== undefined) {
-        await this.#open(linked);
+        await this.#openLinked(linked);
       }
     } catch (error) {
       this.#trouble(error);
+    }
+  }
+
+  async #openLinked({ scene, version }: Linked): Promise<void> {
+    await this.#open(scene);
+    const { version: own } = this.#engine.about;
+    if (version !== undefined && version !== own) {
+      this.#trouble(`The link was made by version ${version}, this is ${own}: the run may be another.`);
     }
   }
 
@@ -312,6 +323,19 @@ export class App {
       if (asked === this.#asked) {
         this.#trouble(error instanceof Stopped ? 'Stopped. The scene before is still here.' : error);
         this.#panel.show(this.#scene, this.#showing[0]?.run.description, this.#mesh);
+      }
+    }
+  }
+
+  /** Opens the scene that is shown again, in an engine that was stopped; its run is the same. */
+  async #reopen(): Promise<void> {
+    const [main] = this.#showing;
+    if (main !== undefined) {
+      const { name } = this.#scene;
+      try {
+        await this.#engine.call('open', [main.slot, name, this.#scene.text(), this.#tables]);
+      } catch (error) {
+        this.#trouble(error instanceof Stopped ? undefined : error);
       }
     }
   }
@@ -640,7 +664,7 @@ export class App {
   // The address
 
   async #writeLink(): Promise<void> {
-    const fragment = await toFragment(this.#scene);
+    const fragment = await toFragment(this.#scene, this.#engine.about.version);
     this.#written = fragment ?? '#';
     history.replaceState(null, '', fragment ?? location.pathname + location.search);
   }
