@@ -8,6 +8,7 @@ export default defineConfig({
   testDir: 'tests',
   forbidOnly: true,
   reporter: 'line',
+  fullyParallel: true,
   workers: 2,
   // Drawing in software takes its time.
   timeout: 180_000,

@@ -871,13 +871,13 @@ export class App {
         return;
       }
       pressure.frame = frame;
-      // The scale follows slowly, or it would flicker.
+      // While it plays the scale follows slowly, or it would flicker.
       const now = typical(pressures);
-      pressure.most = pressure.most === 0 ? now : pressure.most + 0.08 * (now - pressure.most);
+      const follows = this.#playback.playing && pressure.most > 0;
+      pressure.most = follows ? pressure.most + 0.08 * (now - pressure.most) : now;
       main.actors[0]?.paint(coloured(pressures, pressure.most));
-      const round = Number(pressure.most.toPrecision(2));
-      byId('pressure-low').textContent = `−${round} Pa`;
-      byId('pressure-high').textContent = `${round} Pa`;
+      byId('pressure-low').textContent = pascals(-pressure.most);
+      byId('pressure-high').textContent = pascals(pressure.most);
     } catch (error) {
       byId<HTMLInputElement>('pressure').checked = false;
       this.#switchPressure();
@@ -974,6 +974,11 @@ function bounds({ poses, bodies, skins, description }: OpenedRun): [Vector3, Vec
     return [new Vector3(...description.position), new Vector3(...description.position)];
   }
   return [low, high];
+}
+
+/** Two digits of a pressure. */
+function pascals(pressure: number): string {
+  return Math.abs(pressure) < 1e-6 ? '0 Pa' : `${Number(pressure.toPrecision(2))} Pa`.replace('-', '−');
 }
 
 function meshWords(name: string, { triangles, size, mended, notices }: CheckedMesh): string[] {

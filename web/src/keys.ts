@@ -52,8 +52,8 @@ export class Keys {
       const moves: Record<string, [number, number, number]> = {
         ArrowLeft: [-TURN, 0, 1],
         ArrowRight: [TURN, 0, 1],
-        ArrowUp: [0, -TURN, 1],
-        ArrowDown: [0, TURN, 1],
+        ArrowUp: [0, TURN, 1],
+        ArrowDown: [0, -TURN, 1],
         '+': [0, 0, 0.9],
         '-': [0, 0, 1.1],
       };

@@ -8,6 +8,12 @@ const MEMORY = 0.1;
 /** Fastest throw (m/s). */
 const FASTEST = 30;
 
+/** Where a hand was, and when (s). */
+interface Moment {
+  time: number;
+  at: Vector3;
+}
+
 /** A body, and a size around it that is easy to hit (m). */
 export interface Grabbable {
   body: Object3D;
@@ -26,7 +32,7 @@ export class Throw {
   readonly #view: View;
   readonly #events: ThrowEvents;
   readonly #ray = new Raycaster();
-  #held: { body: Object3D; plane: Plane; offset: Vector3; path: { time: number; at: Vector3 }[] } | undefined;
+  #held: { body: Object3D; plane: Plane; offset: Vector3; path: Moment[] } | undefined;
 
   constructor(view: View, events: ThrowEvents) {
     this.#view = view;
@@ -107,17 +113,23 @@ export class Throw {
     this.#held = undefined;
     this.#view.controls.enabled = true;
     event.stopImmediatePropagation();
-    const now = event.timeStamp / 1000;
-    const last = held.path[held.path.length - 1];
-    const before = held.path.find(({ time }) => time >= now - MEMORY);
-    const velocity = new Vector3();
-    if (last !== undefined && before !== undefined && now > before.time) {
-      velocity
-        .copy(last.at)
-        .sub(before.at)
-        .divideScalar(now - before.time);
-      velocity.clampLength(0, FASTEST);
-    }
-    this.#events.released(last?.at ?? held.body.position, held.body.quaternion, velocity);
+    const velocity = velocityAt(event.timeStamp / 1000, held.path).clampLength(0, FASTEST);
+    const at = held.path.at(-1)?.at ?? held.body.position;
+    this.#events.released(at, held.body.quaternion, velocity);
   }
+}
+
+/** Velocity of a hand that is let go now (m/s). Where the page is slow, few of its places are known. */
+function velocityAt(now: number, path: Moment[]): Vector3 {
+  const since = now - MEMORY;
+  const next = path.findIndex(({ time }) => time > since);
+  const [before, after, last] = [path[next - 1], path[next], path.at(-1)];
+  if (after === undefined || last === undefined) {
+    return new Vector3();
+  }
+  // Between two places it went straight.
+  const share = before === undefined ? 1 : (since - before.time) / (after.time - before.time);
+  const begin = (before ?? after).at.clone().lerp(after.at, share);
+  const duration = before === undefined ? now - after.time : MEMORY;
+  return duration > 0 ? last.at.clone().sub(begin).divideScalar(duration) : new Vector3();
 }

@@ -191,3 +191,16 @@ export function brightness({ data, channels }: DecodedPng): number {
   }
   return (sum * channels) / data.length;
 }
+
+/** Pixels of the lower part, where no words stand, that are not the same in two pictures. */
+export function changed(a: DecodedPng, b: DecodedPng): number {
+  let count = 0;
+  const from = a.channels * a.width * Math.floor(a.height / 5);
+  for (let at = from; at < a.data.length; at += a.channels) {
+    const apart = [0, 1, 2].map((colour) =>
+      Math.abs((a.data[at + colour] ?? 0) - (b.data[at + colour] ?? 0)),
+    );
+    count += Math.max(...apart) > 8 ? 1 : 0;
+  }
+  return count;
+}
