@@ -1,4 +1,4 @@
-import { defineConfig } from 'vite';
+import { type Plugin, defineConfig } from 'vite';
 
 /** Where the page is built to, and served from for tests. */
 const page = process.env['PAGE'] ?? '../crates/langevin-rigid-cli/page';
@@ -13,7 +13,21 @@ const policy = [
   "worker-src 'self' blob:",
 ];
 
+/** The same in the page itself, for servers that send nothing. */
+const ownPolicy: Plugin = {
+  name: 'own-policy',
+  apply: 'build',
+  transformIndexHtml: () => [
+    {
+      tag: 'meta',
+      attrs: { 'http-equiv': 'Content-Security-Policy', content: policy.join('; ') },
+      injectTo: 'head-prepend',
+    },
+  ],
+};
+
 export default defineConfig({
+  plugins: [ownPolicy],
   // The page works under any path.
   base: './',
   build: {

@@ -10,7 +10,7 @@ import { Downloads } from './downloads';
 import { Engine, Stopped } from './engine';
 import { Keys } from './keys';
 import { Landings, metres } from './landings';
-import { ofFragment, toFragment } from './link';
+import { type Linked, ofFragment, toFragment } from './link';
 import { LoadsTable } from './loads';
 import { type Opened, fetchOpened } from './opened';
 import { type Comparison, type MeshTold, Panel } from './panel';
@@ -124,7 +124,10 @@ export class App {
     byId<HTMLSelectElement>('scene').addEventListener('change', ({ target }) => {
       void this.#openBuiltIn((target as HTMLSelectElement).value);
     });
-    byId('work-stop').addEventListener('click', () => this.#engine.stop());
+    byId('work-stop').addEventListener('click', () => {
+      this.#engine.stop();
+      void this.#reopen();
+    });
     byId('trouble')
       .querySelector('button')
       ?.addEventListener('click', () => this.#trouble(undefined));
@@ -219,7 +222,7 @@ export class App {
     try {
       const linked = await ofFragment(location.hash, (name) => this.#textOf(name));
       if (linked !== undefined) {
-        await this.#open(linked);
+        await this.#openLinked(linked);
         return;
       }
       const opened = await fetchOpened();
@@ -237,10 +240,18 @@ export class App {
     try {
       const linked = await ofFragment(location.hash, (name) => this.#textOf(name));
       if (linked !== undefined) {
-        await this.#open(linked);
+        await this.#openLinked(linked);
       }
     } catch (error) {
       this.#trouble(error);
+    }
+  }
+
+  async #openLinked({ scene, version }: Linked): Promise<void> {
+    await this.#open(scene);
+    const { version: own } = this.#engine.about;
+    if (version !== undefined && version !== own) {
+      this.#trouble(`The link was made by version ${version}, this is ${own}: the run may be another.`);
     }
   }
 
@@ -316,6 +327,19 @@ export class App {
     }
   }
 
+  /** Opens the scene that is shown again, in an engine that was stopped; its run is the same. */
+  async #reopen(): Promise<void> {
+    const [main] = this.#showing;
+    if (main !== undefined) {
+      const { name } = this.#scene;
+      try {
+        await this.#engine.call('open', [main.slot, name, this.#scene.text(), this.#tables]);
+      } catch (error) {
+        this.#trouble(error instanceof Stopped ? undefined : error);
+      }
+    }
+  }
+
   /** Puts a run into the picture. */
   async #stageRun(run: OpenedRun, anew: boolean): Promise<void> {
     this.#clear();
@@ -331,7 +355,7 @@ export class App {
     this.#playback.glimpse = undefined;
     this.#playback.playing = !reducedMotion();
     this.#pressure = { frame: -1, waiting: false, most: 0 };
-    this.#loadsTable?.begin(run.loads);
+    this.#loadsTable?.begin(run);
     this.#landings.show(this.#scene);
     this.#panel.comparison = this.#comparison;
     this.#panel.show(this.#scene, description, this.#mesh);
@@ -342,7 +366,7 @@ export class App {
     slider.max = String(this.#playback.end);
     const alone = run.bodies.length === 1;
     for (const id of ['forces', 'torques', 'pressure']) {
-      byId<HTMLInputElement>(id).disabled = !alone;
+      byId<HTMLInputElement>(id).disabled = run.loads.length === 0;
     }
     this.#view.canvas.setAttribute('aria-label', this.#inWords(run));
     byId('said').textContent = this.#inWords(run);
@@ -522,7 +546,8 @@ export class App {
         this.#view.surround({ ...description.stage, ground }, size, centre, 0.6 * reach);
       }
       byId<HTMLInputElement>('follow').checked = false;
-      this.#view.lookAt(centre, 1.9 * reach);
+      this.#view.lookFrom(new Vector3(0.35, 0.1, 1));
+      this.#view.lookAt(centre, 0.8 * reach);
       this.#playback.playing = !reducedMotion();
       document.body.dataset['many'] = 'on';
     } catch (error) {
@@ -639,7 +664,7 @@ export class App {
   // The address
 
   async #writeLink(): Promise<void> {
-    const fragment = await toFragment(this.#scene);
+    const fragment = await toFragment(this.#scene, this.#engine.about.version);
     this.#written = fragment ?? '#';
     history.replaceState(null, '', fragment ?? location.pathname + location.search);
   }
@@ -833,7 +858,7 @@ export class App {
   }
 
   async #showPressure(main: Showing): Promise<void> {
-    const wanted = byId<HTMLInputElement>('pressure').checked && main.run.bodies.length === 1;
+    const wanted = byId<HTMLInputElement>('pressure').checked && main.run.loads.length > 0;
     const frame = this.#frameOf(main);
     const pressure = this.#pressure;
     if (!wanted || pressure.waiting || pressure.frame === frame) {

@@ -25,9 +25,17 @@ async function unpack(text: string): Promise<Uint8Array> {
   return through(bytes, new DecompressionStream('deflate-raw'));
 }
 
+/** What a fragment holds. */
+export interface Linked {
+  scene: SceneDocument;
+  /** Of the engine that made the link, if it says. */
+  version: string | undefined;
+}
+
 /** The fragment of a scene; none where its files are too long for an address. */
-export async function toFragment(scene: SceneDocument): Promise<string | undefined> {
+export async function toFragment(scene: SceneDocument, version: string): Promise<string | undefined> {
   const parts = new URLSearchParams();
+  parts.set('version', version);
   parts.set('name', scene.name);
   parts.set('scene', await pack(new TextEncoder().encode(scene.text())));
   for (const [path, bytes] of scene.files) {
@@ -45,11 +53,11 @@ export async function toFragment(scene: SceneDocument): Promise<string | undefin
 export async function ofFragment(
   fragment: string,
   builtIn: (name: string) => string | undefined,
-): Promise<SceneDocument | undefined> {
+): Promise<Linked | undefined> {
   const bare = decodeURIComponent(fragment.replace(/^#/, ''));
   const text = builtIn(bare);
   if (text !== undefined) {
-    return SceneDocument.parse(bare, text);
+    return { scene: SceneDocument.parse(bare, text), version: undefined };
   }
   const parts = new URLSearchParams(fragment.replace(/^#/, ''));
   const packed = parts.get('scene');
@@ -66,7 +74,8 @@ export async function ofFragment(
       files.set(file.slice(0, end), await unpack(file.slice(end + 1)));
     }
     const text = new TextDecoder('utf-8', { fatal: true }).decode(await unpack(packed));
-    return SceneDocument.parse(parts.get('name') ?? 'scene', text, files);
+    const scene = SceneDocument.parse(parts.get('name') ?? 'scene', text, files);
+    return { scene, version: parts.get('version') ?? undefined };
   } catch {
     throw new Error('the link is damaged: a part of it is missing or was changed');
   }

@@ -3,6 +3,7 @@
 import { CAUSES } from './arrows';
 import { h } from './dom';
 import { Vector3 } from 'three';
+import type { OpenedRun } from './told';
 
 export class LoadsTable {
   readonly hidden = new Set<string>();
@@ -37,15 +38,14 @@ export class LoadsTable {
       this.#rows.push({ row, force, torque, seen: false });
     }
     place.append(this.#hint, h('table', {}, h('thead', {}, head), body));
-    this.begin(new Float32Array());
   }
 
   /** A run with these loads: causes that never act are left out. */
-  begin(loads: Float32Array): void {
+  begin({ loads, description }: OpenedRun): void {
     this.#hint.textContent =
       loads.length === 0
-        ? 'Loads are those of a single body.'
-        : 'What acts at the moment shown. Those that are ticked have arrows where Forces or Torques are on.';
+        ? 'Loads are those of a single body in one fluid.'
+        : `What acts at the moment shown${description.world ? ', without what it touches' : ''}. Those that are ticked have arrows where Forces or Torques are on.`;
     this.#rows.forEach((row, number) => {
       row.seen = false;
       for (let at = 6 * number; at < loads.length && !row.seen; at += 6 * this.causes.length) {

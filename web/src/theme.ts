@@ -4,6 +4,23 @@ const CHOICES = ['system', 'light', 'dark'] as const;
 const WORDS = { system: 'as the system has them', light: 'light', dark: 'dark' };
 const KEPT = 'langevin-rigid-theme';
 
+/** What was chosen before; browsers may refuse to tell. */
+function kept(): string | null {
+  try {
+    return localStorage.getItem(KEPT);
+  } catch {
+    return null;
+  }
+}
+
+function keep(choice: string): void {
+  try {
+    localStorage.setItem(KEPT, choice);
+  } catch {
+    // It holds for this visit.
+  }
+}
+
 export class Theme {
   #choice: (typeof CHOICES)[number] = 'system';
   readonly #system = matchMedia('(prefers-color-scheme: dark)');
@@ -12,11 +29,10 @@ export class Theme {
     readonly button: HTMLElement,
     readonly onChange: () => void,
   ) {
-    const kept = CHOICES.find((choice) => choice === localStorage.getItem(KEPT));
-    this.#apply(kept ?? 'system');
+    this.#apply(CHOICES.find((choice) => choice === kept()) ?? 'system');
     button.addEventListener('click', () => {
       const next = CHOICES[(CHOICES.indexOf(this.#choice) + 1) % CHOICES.length] ?? 'system';
-      localStorage.setItem(KEPT, next);
+      keep(next);
       this.#apply(next);
     });
     this.#system.addEventListener('change', () => this.#apply(this.#choice));

@@ -57,7 +57,7 @@ export class View {
   readonly canvas: HTMLCanvasElement;
   readonly #renderer: WebGLRenderer;
   readonly #labels = new CSS2DRenderer();
-  readonly #sun = new DirectionalLight(0xffffff, 2.2);
+  readonly #sun = new DirectionalLight(0xffffff, 1.9);
   #surroundings = new Group();
   #ground = 0;
   /** Size of what is looked at (m). */
@@ -76,8 +76,8 @@ export class View {
     this.#sun.castShadow = true;
     this.#sun.shadow.mapSize.set(2048, 2048);
     this.scene.add(
-      new HemisphereLight(0xffffff, 0x8a8f80, 1.3),
-      new AmbientLight(0xffffff, 0.25),
+      new HemisphereLight(0xffffff, 0xb5b5a2, 1.7),
+      new AmbientLight(0xffffff, 0.5),
       this.#sun,
       this.#sun.target,
       this.#surroundings,

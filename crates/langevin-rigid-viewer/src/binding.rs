@@ -260,8 +260,8 @@ impl Skin {
 impl Many {
     /// See [`many::Many::new`].
     #[wasm_bindgen(constructor)]
-    pub fn new(session: &Session, count: u32) -> Many {
-        Self(many::Many::new(&session.0, count))
+    pub fn new(session: &Session, count: u32) -> Outcome<Many> {
+        Ok(Self(many::Many::new(&session.0, count)?))
     }
 
     /// See [`many::Many::advance`].

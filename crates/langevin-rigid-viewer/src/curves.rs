@@ -18,11 +18,12 @@ pub struct Curves {
     pub tilt: Vec<f32>,
     /// Turns a second.
     pub spin: Vec<f32>,
-    /// Kinetic energy of body and fluid, relative to the undisturbed fluid (J).
+    /// Kinetic energy of body and fluid, relative to the undisturbed fluid (J); NaN in a scene with water, into which bodies
+    /// dip.
     pub kinetic: Vec<f32>,
     /// The same with the potential energy above the lowest place of the run (J).
     pub energy: Vec<f32>,
-    /// Attachment of the flow, 0 to 1; NaN in models without it.
+    /// Attachment of the flow, 0 to 1; NaN in models without it, and in a scene with water.
     pub attachment: Vec<f32>,
 }
 
@@ -57,10 +58,16 @@ impl Session {
         };
         let mut curves = Curves::default();
         for state in run.states() {
-            let kinetic = stepper.kinetic_energy(state);
+            let kinetic = match self.has_water() {
+                true => f64::NAN,
+                false => stepper.kinetic_energy(state),
+            };
             let axis = rotate(state.orientation, [0.0, 1.0, 0.0]);
             let tilt = dot(axis, up).clamp(-1.0, 1.0).acos().to_degrees();
-            let attachment = stepper.attachment(state, &self.input(state));
+            let attachment = match self.has_water() {
+                true => None,
+                false => stepper.attachment(state, &self.input(state)),
+            };
             let turns = norm(state.angular_velocity) / std::f64::consts::TAU;
             curves.speed.push(norm(state.velocity) as f32);
             curves.tilt.push(tilt as f32);
@@ -75,9 +82,17 @@ impl Session {
         curves
     }
 
+    /// Whether bodies dip into water: their loads are then not those of their stepper.
+    fn has_water(&self) -> bool {
+        self.prepared().scene().water.is_some()
+    }
+
     /// The loads on the only body of a run at each frame: for each of the [`causes`] force (N) and torque (N m) about the
-    /// centre of mass, world frame.
+    /// centre of mass, world frame. What obstacles push with is not among them; empty in a scene with water.
     pub fn loads(&self, run: &Run) -> Vec<f32> {
+        if self.has_water() {
+            return Vec::new();
+        }
         let stepper = self.prepared().stepper();
         let mut numbers = Vec::new();
         for state in run.states() {

@@ -1,22 +1,24 @@
 //! Thousands of bodies that fall without end: one that reaches the ground begins again at the top.
 
-use langevin_rigid::Batch;
 use langevin_rigid::linalg::Vec3;
+use langevin_rigid::{Batch, Settings, SetupError, Stepper};
+use langevin_rigid_scenes::baking::settings;
 use langevin_rigid_scenes::scene::Scene;
 use langevin_rigid_scenes::together::anywhere;
 
 use crate::session::Session;
 
-/// The longest step (s): a body that needs a shorter one takes it in parts.
-const STEP: f64 = 1.0 / 240.0;
+/// They are seen from afar: their steps are as coarse as can be.
+const LONGEST_PART: f64 = 1.6;
 
 /// Horizontal room of a body, in squares of its length.
-const ROOM: f64 = 6.0;
+const ROOM: f64 = 3.0;
 
 /// Bodies under way in a box that stands on the ground. They meet the fluid and its wind, not each other.
 #[derive(Debug)]
 pub struct Many {
-    batch: Batch<f64>,
+    stepper: Stepper,
+    batch: Batch<f32>,
     /// Number of the release of each.
     releases: Vec<u32>,
     poses: Vec<f32>,
@@ -28,7 +30,10 @@ pub struct Many {
 
 impl Many {
     /// So many of the scene's own bodies, anywhere between its release and the ground (3 m below where there is none).
-    pub fn new(session: &Session, count: u32) -> Self {
+    ///
+    /// # Errors
+    /// [`SetupError`], for settings that are none.
+    pub fn new(session: &Session, count: u32) -> Result<Self, SetupError> {
         let (scene, body) = (session.prepared().scene(), session.prepared().body());
         let top = scene.release.position;
         let ground = scene.stop.ground.filter(|ground| *ground < top[1]);
@@ -37,7 +42,13 @@ impl Many {
         // The poorest seat is taken: all heights as likely.
         let height = top[1] - ground;
         let over = [side, height, side];
+        let settings = Settings {
+            longest_part: LONGEST_PART,
+            ..settings(scene)
+        };
+        let history = session.prepared().baked().bake.history.as_ref();
         let mut many = Self {
+            stepper: Stepper::new(body, &scene.fluid, history, &settings)?,
             batch: Batch::new(scene.seed),
             releases: (0..count).collect(),
             poses: Vec::new(),
@@ -51,7 +62,7 @@ impl Many {
             many.batch.push(&state);
         }
         many.place();
-        many
+        Ok(many)
     }
 
     /// Sides of the box (m), and its middle on the ground.
@@ -61,14 +72,13 @@ impl Many {
 
     /// Moves them on by a frame of `duration` (s).
     pub fn advance(&mut self, session: &Session, duration: f64) {
-        let steps = (duration / STEP).ceil().max(1.0);
-        let (stepper, wind) = (session.prepared().stepper(), session.prepared().wind());
-        for _ in 0..steps as u32 {
-            // One that cannot go on stays where it is and begins again.
-            let stuck = stepper.step_batch_in(&mut self.batch, duration / steps, wind, 0.0);
-            for body in stuck.err().into_iter().flat_map(|error| error.bodies) {
-                self.begin(session.prepared().scene(), body as usize);
-            }
+        let wind = session.prepared().wind();
+        let stuck = self
+            .stepper
+            .step_batch_in(&mut self.batch, duration, wind, 0.0);
+        // One that cannot go on stays where it is and begins again.
+        for body in stuck.err().into_iter().flat_map(|error| error.bodies) {
+            self.begin(session.prepared().scene(), body as usize);
         }
         for body in 0..self.batch.len() {
             let state = self.batch.state(body);
@@ -120,7 +130,7 @@ mod tests {
             run = { time_step = 0.002, duration = 10.0, ground = 0.5 }
         "#;
         let session = Session::open("card", text, None, &()).unwrap();
-        let mut many = Many::new(&session, 100);
+        let mut many = Many::new(&session, 100).unwrap();
         for _ in 0..240 {
             many.advance(&session, 1.0 / 60.0);
         }

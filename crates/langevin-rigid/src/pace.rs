@@ -34,14 +34,16 @@ pub(crate) struct Pace<R = f64> {
     resisted: Rates<R>,
     /// What weight and buoyancy add to the speed in a second (m/s^2), at most.
     gain: R,
+    /// A step of the explicit scheme is at most this over the fastest rate.
+    explicit: R,
 }
 
-/// A step of the explicit scheme is at most this over the fastest rate. The scheme of fourth order is
-/// stable to 2.8.
-const EXPLICIT: f64 = 1.0;
 /// Weight of the rate at which the impulse's moment passes through a small inertia: without it steps are stable to
 /// 3.3 over that rate.
 const IMPULSE: f64 = 0.5;
+/// The longest step of the explicit scheme over the fastest rate. The scheme of fourth order is stable to 2.8, and with
+/// [`IMPULSE`] to 1.65.
+pub(crate) const COARSEST: f64 = 1.6;
 /// Where the resistances are this many times as fast as the rest and the step, they are taken implicitly.
 const STIFF: f64 = 16.0;
 /// A part that takes them so, and the rest by the midpoint rule of second order, is at most this over the rate
@@ -61,8 +63,9 @@ pub(crate) struct Substep<R: Real> {
 }
 
 impl Pace {
-    /// The pace of a body; without a closure nothing resists.
-    pub(crate) fn of(kirchhoff: &Kirchhoff, closure: Option<&Closure>) -> Self {
+    /// The pace of a body with steps of the explicit scheme up to `explicit` over the fastest rate; without a closure nothing
+    /// resists.
+    pub(crate) fn of(kirchhoff: &Kirchhoff, closure: Option<&Closure>, explicit: f64) -> Self {
         let length = closure.map_or_else(|| gyration(&kirchhoff.total), |c| c.length());
         let probe = Probe {
             kirchhoff,
@@ -75,6 +78,7 @@ impl Pace {
             free,
             resisted: probe.rates(|xi| spectral_radius(&probe.relaxation(xi))),
             gain: kirchhoff.gain(),
+            explicit,
         }
     }
 
@@ -84,6 +88,7 @@ impl Pace {
             free: self.free.lift(like),
             resisted: self.resisted.lift(like),
             gain: like.of(self.gain),
+            explicit: like.of(self.explicit),
         }
     }
 
@@ -91,7 +96,7 @@ impl Pace {
     pub(crate) fn longest_step(&self, xi: &Vec6) -> f64 {
         let (v, omega) = split(xi);
         let at = |rates: &Rates| rates.at(norm(v), norm(omega));
-        EXPLICIT / at(&self.free).max(at(&self.resisted))
+        self.explicit / at(&self.free).max(at(&self.resisted))
     }
 }
 
@@ -113,7 +118,7 @@ impl<R: Real> Pace<R> {
             spin = spin + (spun * left + gradient);
         }
         let (free, resisted) = (self.free.at(speed, spin), self.resisted.at(speed, spin));
-        let explicit = left.of(EXPLICIT);
+        let explicit = self.explicit;
         let long = explicit.less(left * free.max(resisted));
         if !R::any(long) {
             return Substep {

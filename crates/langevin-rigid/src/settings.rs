@@ -94,6 +94,9 @@ pub struct Settings {
     pub release_speed: f64,
     /// Another Reynolds number than that.
     pub reynolds: Option<f64>,
+    /// The longest part that a step is taken in, over the shortest time in which the motion changes: 1 resolves it; up to 1.6
+    /// it is coarser and faster, and stable, for bodies seen from afar.
+    pub longest_part: f64,
 }
 
 impl Default for Settings {
@@ -107,6 +110,7 @@ impl Default for Settings {
             turbulence_length: None,
             release_speed: 0.0,
             reynolds: None,
+            longest_part: 1.0,
         }
     }
 }

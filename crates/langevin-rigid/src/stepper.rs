@@ -136,7 +136,7 @@ impl Stepper {
             FluidLoads::None | FluidLoads::Langevin(_) => None,
         };
         let equations = Equations {
-            pace: Pace::of(&kirchhoff, closure),
+            pace: Pace::of(&kirchhoff, closure, settings.longest_part),
             kirchhoff,
             loads,
             current: moving.then_some(fluid.velocity),

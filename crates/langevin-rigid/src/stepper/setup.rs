@@ -7,6 +7,7 @@ use crate::fluid::Fluid;
 use crate::kirchhoff::Kirchhoff;
 use crate::langevin::Langevin;
 use crate::linalg::{Vec3, eigen_symmetric, norm, scale, split};
+use crate::pace::COARSEST;
 use crate::published::Published;
 use crate::separated::{Closure, Eddies};
 use crate::settings::{Integrator, Model, Settings};
@@ -208,6 +209,14 @@ pub(super) fn check(fluid: &Fluid, settings: &Settings) -> Result<(), SetupError
                 wanted: "a positive number",
             });
         }
+    }
+    let value = settings.longest_part;
+    if !(value > 0.0 && value <= COARSEST) {
+        return Err(SetupError::OutOfRange {
+            name: "the longest part of a step",
+            value,
+            wanted: "a positive number up to 1.6",
+        });
     }
     let c = &settings.separated;
     let wake_age = match settings.turbulence {
