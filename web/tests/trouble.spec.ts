@@ -1,6 +1,6 @@
 /** Where the page or a scene cannot work, it says so. */
 
-import { end, expect, expectPlayable, open, runs, set, test, type } from './page';
+import { download, end, expect, expectPlayable, set, open, runs, test, type } from './page';
 
 test('without WebGL 2 the page says so plainly', async ({ page }) => {
   await page.addInitScript(() => {
@@ -41,4 +41,23 @@ test('a wrong value is told in words, and the run before stays', async ({ page }
 
   await set(page, 'body-density', '500');
   await expect(trouble).toBeHidden();
+});
+
+test('work that takes long can be stopped, and the run before stays', async ({ page }) => {
+  await open(page);
+  const [count, last, table] = [await runs(page), await end(page), await download(page, 'csv')];
+  await page.locator('#scene').selectOption('leaves');
+  await page.locator('#work-stop').click();
+  await expect(page.locator('#trouble p')).toHaveText('Stopped. The scene before is still here.');
+  await expect(page.locator('#work')).toBeHidden();
+  expect(await runs(page)).toBe(count);
+  expect(await end(page)).toBe(last);
+  await expectPlayable(page);
+  // All that can be done with it still can.
+  await expect(page.locator('#scene')).toHaveValue('leaf');
+  await page.locator('#pressure').check();
+  await expect(page.locator('#pressure-high')).toHaveText(/Pa$/);
+  expect((await download(page, 'csv')).equals(table)).toBe(true);
+  await set(page, 'tilt', '20');
+  await expect(page.locator('#trouble')).toBeHidden();
 });
