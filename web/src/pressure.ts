@@ -1,6 +1,6 @@
 /** Pressures as colours: blue is suction, red is push. */
 
-import { Color } from 'three';
+import { type BufferGeometry, Color, Vector3 } from 'three';
 import { byId } from './dom';
 import type { Actor } from './actor';
 
@@ -13,6 +13,7 @@ export class Pressure {
   /** The end of the scale (Pa). */
   #most = 0;
   #actor: Actor | undefined;
+  #areas: Float32Array = new Float32Array();
 
   constructor(
     /** Pressures (Pa) at the vertices of the body at a frame. */
@@ -30,6 +31,7 @@ export class Pressure {
   /** Another body, or another wish. */
   begin(actor: Actor | undefined): void {
     this.#actor = actor;
+    this.#areas = actor === undefined ? new Float32Array() : areasOf(actor.mesh.geometry);
     this.#frame = -1;
     this.#most = 0;
     byId('pressure-scale').hidden = !this.wanted;
@@ -62,7 +64,7 @@ export class Pressure {
 
   #paint(actor: Actor, pressures: Float32Array, playing: boolean): void {
     // While it plays the scale follows slowly, or it would flicker.
-    const now = typical(pressures);
+    const now = typical(pressures, this.#areas);
     this.#most = playing && this.#most > 0 ? this.#most + 0.08 * (now - this.#most) : now;
     actor.paint(coloured(pressures, this.#most));
     byId('pressure-low').textContent = pascals(-this.#most);
@@ -83,10 +85,28 @@ function coloured(pressures: Float32Array, most: number): Float32Array {
   return colours;
 }
 
-/** A pressure that all but a few of the strongest stay below (Pa): edges have suction without bound. */
-function typical(pressures: Float32Array): number {
-  const sizes = pressures.map(Math.abs).sort();
-  return Math.max(sizes[Math.floor(0.9 * sizes.length)] ?? 0, 1e-9);
+/** A pressure (Pa) that nine tenths of the surface stay below: edges have suction without bound. */
+function typical(pressures: Float32Array, areas: Float32Array): number {
+  const order = Array.from(pressures.keys()).sort(
+    (a, b) => Math.abs(pressures[a] ?? 0) - Math.abs(pressures[b] ?? 0),
+  );
+  let left = 0.9 * areas.reduce((sum, area) => sum + area, 0);
+  const last = order.find((vertex) => (left -= areas[vertex] ?? 0) <= 0);
+  return Math.max(Math.abs(pressures[last ?? 0] ?? 0), 1e-9);
+}
+
+/** Area around each vertex. */
+function areasOf(geometry: BufferGeometry): Float32Array {
+  const [position, index] = [geometry.getAttribute('position'), geometry.getIndex()];
+  const areas = new Float32Array(position.count);
+  const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
+  for (let corner = 0; index !== null && corner < index.count; corner += 3) {
+    const corners = [0, 1, 2].map((next) => index.getX(corner + next));
+    [a, b, c].forEach((point, place) => point.fromBufferAttribute(position, corners[place] ?? 0));
+    const area = b.sub(a).cross(c.sub(a)).length() / 6;
+    corners.forEach((vertex) => (areas[vertex] = (areas[vertex] ?? 0) + area));
+  }
+  return areas;
 }
 
 /** Two digits of a pressure. */
