@@ -289,7 +289,11 @@ export class App {
     await this.#show(scene, undefined, true, undefined);
   }
 
-  /** Bakes and drops a scene, and shows it; what was shown before stays if that fails. */
+  /**
+   * Bakes and drops a scene, and shows it; what was shown before stays if that fails.
+   *
+   * @throws what went wrong, where nothing was shown before
+   */
   async #show(
     scene: SceneDocument,
     tables: Tables | undefined,
@@ -320,9 +324,13 @@ export class App {
       await this.#stageRun(run, anew);
       void this.#writeLink();
     } catch (error) {
+      if (this.#showing.length === 0) {
+        throw error;
+      }
       if (asked === this.#asked) {
         this.#trouble(error instanceof Stopped ? 'Stopped. The scene before is still here.' : error);
         this.#panel.show(this.#scene, this.#showing[0]?.run.description, this.#mesh);
+        this.#chooseScene();
       }
     }
   }
