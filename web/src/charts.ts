@@ -3,6 +3,7 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { colour, h } from './dom';
+import { frameAt } from './playback';
 import { type CurveName, type OpenedRun, curve } from './told';
 
 /** Points of a curve at most: more than a screen has. */
@@ -60,7 +61,7 @@ export class Charts {
     if (first === undefined) {
       return;
     }
-    const place = lastBefore(first.times, time);
+    const place = frameAt(first.times, time).frame;
     for (const { plot, playhead, value, of } of this.#panels) {
       const left = plot.valToPos(time, 'x') + plot.bbox.left / devicePixelRatio;
       playhead.style.transform = `translateX(${left.toFixed(1)}px)`;
@@ -149,7 +150,7 @@ export class Charts {
     const numbers = curve(run, name);
     const end = run.times[run.times.length - 1] ?? 0;
     return this.#times.map((time) => {
-      const number = time > end ? undefined : numbers?.[lastBefore(run.times, time)];
+      const number = time > end ? undefined : numbers?.[frameAt(run.times, time).frame];
       return number === undefined || Number.isNaN(number) ? null : scaled(name, number);
     });
   }
@@ -171,17 +172,4 @@ export class Charts {
 /** Joules in millijoules, all else as it is. */
 function scaled(name: CurveName, number: number): number {
   return name === 'energy' || name === 'kinetic' ? 1000 * number : number;
-}
-
-function lastBefore(times: Float64Array, time: number): number {
-  let [low, high] = [0, times.length - 1];
-  while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if ((times[middle] ?? 0) <= time) {
-      low = middle;
-    } else {
-      high = middle - 1;
-    }
-  }
-  return low;
 }

@@ -13,7 +13,6 @@ export class LoadsTable {
   constructor(
     readonly place: HTMLElement,
     readonly causes: string[],
-    onChange: () => void,
   ) {
     const head = h('tr', {}, header('Cause'), header('Force, mN'), header('Torque, µN m'));
     const body = h('tbody');
@@ -25,7 +24,6 @@ export class LoadsTable {
         } else {
           this.hidden.add(cause);
         }
-        onChange();
       });
       const dot = h('span', { className: 'dot' });
       dot.style.background = CAUSES[cause]?.colour ?? '';

@@ -24,7 +24,7 @@ if (!hasWebGL2()) {
   plainly('This page computes with WebAssembly, and the browser does not offer it. Try another browser.');
 } else {
   try {
-    await new App().begin();
+    await App.begin();
   } catch (error) {
     plainly(`The page could not start: ${words(error)}`);
     byId('said').textContent = words(error);

@@ -23,30 +23,15 @@ export class Playback {
     return this.glimpse ?? this.time;
   }
 
-  /** The last frame that is not after `time`. */
-  frame(time = this.shown): number {
-    let [low, high] = [0, this.times.length - 1];
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if ((this.times[middle] ?? 0) <= time) {
-        low = middle;
-      } else {
-        high = middle - 1;
-      }
-    }
-    return low;
-  }
-
-  /** Frame and share of the way to the next. */
-  between(time = this.shown): { frame: number; share: number } {
-    const frame = this.frame(time);
-    const [before, after] = [this.times[frame] ?? 0, this.times[frame + 1]];
-    const share = after === undefined || after <= before ? 0 : (time - before) / (after - before);
-    return { frame, share: Math.min(1, Math.max(0, share)) };
-  }
-
   seek(time: number): void {
     this.time = Math.min(this.end, Math.max(this.start, time));
+  }
+
+  /** At the release. */
+  begin(playing: boolean): void {
+    this.time = this.start;
+    this.glimpse = undefined;
+    this.playing = playing;
   }
 
   play(): void {
@@ -59,7 +44,7 @@ export class Playback {
   /** To the next frame, or so many back. */
   step(frames: number): void {
     this.playing = false;
-    const frame = Math.min(this.times.length - 1, Math.max(0, this.frame(this.time) + frames));
+    const frame = Math.min(this.times.length - 1, Math.max(0, frameAt(this.times, this.time).frame + frames));
     this.time = this.times[frame] ?? this.time;
   }
 
@@ -75,4 +60,20 @@ export class Playback {
     }
     return false;
   }
+}
+
+/** The last frame that is not after `time`, and the share of the way to the next. */
+export function frameAt(times: Float64Array, time: number): { frame: number; share: number } {
+  let [low, high] = [0, times.length - 1];
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if ((times[middle] ?? 0) <= time) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
+  }
+  const [before, after] = [times[low] ?? 0, times[low + 1]];
+  const share = after === undefined || after <= before ? 0 : (time - before) / (after - before);
+  return { frame: low, share: Math.min(1, Math.max(0, share)) };
 }
