@@ -314,7 +314,11 @@ export class App {
     }
   }
 
-  /** Bakes and drops a scene, and shows it; what was shown before stays if that fails. */
+  /**
+   * Bakes and drops a scene, and shows it; what was shown before stays if that fails.
+   *
+   * @throws what went wrong, where nothing was shown before
+   */
   async #show(given: SceneDocument, { tables, anew, mesh }: Way): Promise<void> {
     const asked = ++this.#asked;
     this.#stopMany();
@@ -337,9 +341,13 @@ export class App {
       await this.#stageRun(run, anew);
       void this.#address.write();
     } catch (error) {
+      if (this.#picture.main === undefined) {
+        throw error;
+      }
       if (asked === this.#asked) {
         trouble(error instanceof Stopped ? 'Stopped. The scene before is still here.' : error);
-        this.#panel.show(this.#scene, this.#picture.main?.run.description, this.#mesh);
+        this.#panel.show(this.#scene, this.#picture.main.run.description, this.#mesh);
+        this.#chooseScene();
       }
     }
   }

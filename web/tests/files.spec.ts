@@ -1,5 +1,6 @@
 /** What leaves the page, and comes back: links and files. */
 
+import { deflateRawSync } from 'node:zlib';
 import { decode } from 'fast-png';
 import { BOX, stl } from './meshes';
 import { choose, download, drop, end, expect, expectPlayable, give, open, set, shown, test } from './page';
@@ -58,6 +59,17 @@ test('a link may be of a built-in scene, of another, or damaged', async ({ page 
   await expect(trouble).toHaveText('the link is damaged: a part of it is missing or was changed');
   await expect(page.locator('#scene')).toHaveValue('leaf');
   await expectPlayable(page);
+
+  await page.goto('about:blank');
+  await open(page, whole.replace(/version=[^&]*/, 'version=0.0.1'));
+  await expect(trouble).toHaveText(/^The link was made by version 0\.0\.1, this is /);
+  await expect(page.locator('#scene')).toHaveValue('fan');
+
+  await page.goto('about:blank');
+  const wrong = deflateRawSync('[body]\nshape = "cube"\n').toString('base64url');
+  await open(page, `./#name=cube&scene=${wrong}`);
+  await expect(trouble).toContainText('cube');
+  await expect(page.locator('#scene')).toHaveValue('leaf');
 
   await page.goto('about:blank');
   await open(page, './#no-such-scene');
