@@ -11,6 +11,7 @@ mod format;
 mod frames;
 mod gltf;
 mod keys;
+#[cfg(feature = "npz")]
 mod npz;
 mod parameters;
 #[cfg(feature = "parquet")]
@@ -239,7 +240,10 @@ pub fn write(
     };
     match format {
         Format::Csv => table(&path, |out| write_csv(&trajectories(), out))?,
+        #[cfg(feature = "npz")]
         Format::Npz => table(&path, |out| npz::write(recording, options.up, out))?,
+        #[cfg(not(feature = "npz"))]
+        Format::Npz => return Err(ExportError::NotBuilt { format }),
         #[cfg(feature = "parquet")]
         Format::Parquet => table(&path, |out| parquet::write(&trajectories(), out))?,
         #[cfg(not(feature = "parquet"))]

@@ -53,7 +53,11 @@ impl Format {
 
     /// Whether this build can write it.
     pub fn built(self) -> bool {
-        self != Self::Parquet || cfg!(feature = "parquet")
+        match self {
+            Self::Npz => cfg!(feature = "npz"),
+            Self::Parquet => cfg!(feature = "parquet"),
+            Self::Csv | Self::Glb | Self::Usd => true,
+        }
     }
 }
 
