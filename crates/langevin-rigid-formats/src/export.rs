@@ -11,7 +11,6 @@ mod format;
 mod frames;
 mod gltf;
 mod keys;
-#[cfg(feature = "npz")]
 mod npz;
 mod parameters;
 #[cfg(feature = "parquet")]
@@ -240,10 +239,7 @@ pub fn write(
     };
     match format {
         Format::Csv => table(&path, |out| write_csv(&trajectories(), out))?,
-        #[cfg(feature = "npz")]
         Format::Npz => table(&path, |out| npz::write(recording, options.up, out))?,
-        #[cfg(not(feature = "npz"))]
-        Format::Npz => return Err(ExportError::NotBuilt { format }),
         #[cfg(feature = "parquet")]
         Format::Parquet => table(&path, |out| parquet::write(&trajectories(), out))?,
         #[cfg(not(feature = "parquet"))]

@@ -62,9 +62,7 @@
 //! # Features
 //!
 //! - `meshopt`, on by default: reads glTF files that meshoptimizer compressed. It needs a C++ compiler; without the
-//!   feature the crate builds for `wasm32-unknown-unknown`, where [`files`] are in memory.
-//! - `npz`, on by default: writes [`Format::Npz`](export::Format::Npz) and reads winds on a grid.
-//! - `draco`, on by default: reads glTF files that Draco compressed.
+//!   feature the crate builds for `wasm32-unknown-unknown`, where files are not written.
 //! - `parquet`: writes [`Format::Parquet`](export::Format::Parquet). Its library takes long to build.
 
 pub mod added_mass;

@@ -71,7 +71,7 @@
 //! # Features
 //!
 //! `meshopt`, on by default: passed on to `langevin-rigid-bake` and `langevin-rigid-formats`. Without it the crate builds
-//! for `wasm32-unknown-unknown`. `npz` and `draco`, on by default: passed on to `langevin-rigid-formats`.
+//! for `wasm32-unknown-unknown`.
 
 pub mod advance;
 pub mod baking;

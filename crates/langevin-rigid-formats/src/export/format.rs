@@ -53,11 +53,7 @@ impl Format {
 
     /// Whether this build can write it.
     pub fn built(self) -> bool {
-        match self {
-            Self::Npz => cfg!(feature = "npz"),
-            Self::Parquet => cfg!(feature = "parquet"),
-            Self::Csv | Self::Glb | Self::Usd => true,
-        }
+        self != Self::Parquet || cfg!(feature = "parquet")
     }
 }
 

@@ -305,7 +305,6 @@ fn a_thousand_bodies_fit_into_sixty_megabytes() {
     }
 }
 
-#[cfg(feature = "npz")]
 #[test]
 fn arrays_read_back_to_the_last_bit() {
     let trajectories = [tumbling(0, 0.1, 100), tumbling(4, 0.05, 100)];

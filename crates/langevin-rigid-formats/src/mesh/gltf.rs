@@ -8,10 +8,6 @@ mod base64;
 mod beside;
 mod buffer;
 mod document;
-#[cfg(feature = "draco")]
-mod draco;
-#[cfg(not(feature = "draco"))]
-#[path = "gltf/without_draco.rs"]
 mod draco;
 mod expected;
 mod instancing;

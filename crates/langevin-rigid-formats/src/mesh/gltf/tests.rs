@@ -5,10 +5,10 @@ use langevin_rigid_bake::shapes::Shape;
 
 use super::super::{MeshFormat, ParseError, RawMesh, parse_mesh};
 
-#[cfg(all(feature = "meshopt", feature = "draco"))]
+#[cfg(feature = "meshopt")]
 mod compressed;
 mod confined;
-#[cfg(all(feature = "meshopt", feature = "draco"))]
+#[cfg(feature = "meshopt")]
 mod damaged;
 mod features;
 mod proportion;
@@ -144,14 +144,6 @@ pub(crate) fn glb(json: &str, data: &[u8]) -> Vec<u8> {
         out.extend(chunk);
     }
     out
-}
-
-#[cfg(not(feature = "draco"))]
-#[test]
-fn without_its_decoder_draco_is_refused_by_name() {
-    let ball = include_bytes!("../../../tests/data/ball-draco-sequential.glb");
-    let refused = parse_mesh(ball, MeshFormat::Glb, None, None).unwrap_err();
-    assert!(refused.to_string().contains("without the feature `draco`"));
 }
 
 #[cfg(not(feature = "meshopt"))]
