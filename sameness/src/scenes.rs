@@ -12,7 +12,8 @@ use crate::fnv::Fnv;
 
 /// Thick and thin, flat and bent, in air and in water and between them, touching; under the models separated and
 /// consistent.
-const NAMES: [&str; 10] = [
+const NAMES: [&str; 11] = [
+    "leaf",
     "coin",
     "ellipsoid-water",
     "paper-30",

@@ -1,4 +1,4 @@
-//! What `run.mjs` calls.
+//! What `hashes.mjs` calls.
 #![allow(unsafe_code, reason = "exported names are unsafe attributes")]
 
 use std::sync::LazyLock;
