@@ -100,7 +100,7 @@ export class Panel {
       type: 'file',
       id: 'mesh-file',
       className: 'hidden',
-      accept: '.obj,.stl,.ply,.glb,.gltf,.dae,.toml',
+      accept: '.obj,.stl,.ply,.glb,.gltf,.toml',
       tabIndex: -1,
     });
     file.addEventListener('change', () => {

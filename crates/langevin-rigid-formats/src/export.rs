@@ -11,6 +11,7 @@ mod format;
 mod frames;
 mod gltf;
 mod keys;
+#[cfg(feature = "npz")]
 mod npz;
 mod parameters;
 #[cfg(feature = "parquet")]
@@ -239,11 +240,10 @@ pub fn write(
     };
     match format {
         Format::Csv => table(&path, |out| write_csv(&trajectories(), out))?,
+        #[cfg(feature = "npz")]
         Format::Npz => table(&path, |out| npz::write(recording, options.up, out))?,
         #[cfg(feature = "parquet")]
         Format::Parquet => table(&path, |out| parquet::write(&trajectories(), out))?,
-        #[cfg(not(feature = "parquet"))]
-        Format::Parquet => return Err(ExportError::NotBuilt { format }),
         Format::Glb => {
             let (bytes, animation) = gltf::glb(recording, options.fps)?;
             files::write(&path, &bytes)?;
@@ -255,6 +255,8 @@ pub fn write(
             written.note(&layer.animation);
             written.warnings.extend(recording.without_visuals());
         }
+        #[cfg(not(all(feature = "npz", feature = "parquet")))]
+        format => return Err(ExportError::NotBuilt { format }),
     }
     // NumPy's arrays have it all, and animations show it.
     if matches!(format, Format::Csv | Format::Parquet) && !recording.is_uniform() {

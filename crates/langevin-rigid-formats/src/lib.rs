@@ -61,9 +61,17 @@
 //!
 //! # Features
 //!
-//! - `meshopt`, on by default: reads glTF files that meshoptimizer compressed. It needs a C++ compiler; without the
+//! On by default:
+//!
+//! - `meshopt` reads glTF files that meshoptimizer compressed. It needs a C++ compiler; without the
 //!   feature the crate builds for `wasm32-unknown-unknown`, where files are not written.
-//! - `parquet`: writes [`Format::Parquet`](export::Format::Parquet). Its library takes long to build.
+//! - `draco` reads glTF files that Draco compressed.
+//! - `collada` reads Collada files.
+//! - `npz` writes [`Format::Npz`](export::Format::Npz) and reads [`wind_table`]s.
+//!
+//! Not by default:
+//!
+//! - `parquet` writes [`Format::Parquet`](export::Format::Parquet). Its library takes long to build.
 
 pub mod added_mass;
 pub mod budget;

@@ -10,6 +10,7 @@
 //! The readers take nothing in a file at its word: a damaged or hostile file gives a
 //! [`ParseError`], never a panic, and no more memory than the file's own length calls for.
 
+#[cfg_attr(not(feature = "collada"), path = "mesh/without_collada.rs")]
 mod collada;
 mod error;
 mod foreign;
@@ -187,7 +188,7 @@ impl MeshFormat {
             Some(MeshFormat::Stl)
         } else if plain.trim_ascii_start().starts_with(b"{") {
             Some(MeshFormat::Gltf)
-        } else if collada::is_collada(plain) {
+        } else if foreign::is_collada(plain) {
             Some(MeshFormat::Collada)
         } else if obj::has_vertices(plain) {
             Some(MeshFormat::Obj)

@@ -70,8 +70,8 @@
 //!
 //! # Features
 //!
-//! `meshopt`, on by default: passed on to `langevin-rigid-bake` and `langevin-rigid-formats`. Without it the crate builds
-//! for `wasm32-unknown-unknown`.
+//! `collada`, `draco`, `meshopt` and `npz`, on by default: passed on to `langevin-rigid-formats`, and `meshopt` to
+//! `langevin-rigid-bake`. Without `meshopt` the crate builds for `wasm32-unknown-unknown`.
 
 pub mod advance;
 pub mod baking;

@@ -11,7 +11,7 @@ use langevin_rigid::{UnknownName, choose};
 pub enum Format {
     /// Comma-separated values, every step: `trajectory.csv`.
     Csv,
-    /// NumPy arrays, every step: `trajectory.npz`.
+    /// NumPy arrays, every step: `trajectory.npz`. Behind the feature `npz`.
     Npz,
     /// Apache Parquet, every step: `trajectory.parquet`. Behind the feature `parquet`.
     Parquet,
@@ -53,7 +53,11 @@ impl Format {
 
     /// Whether this build can write it.
     pub fn built(self) -> bool {
-        self != Self::Parquet || cfg!(feature = "parquet")
+        match self {
+            Self::Npz => cfg!(feature = "npz"),
+            Self::Parquet => cfg!(feature = "parquet"),
+            Self::Csv | Self::Glb | Self::Usd => true,
+        }
     }
 }
 

@@ -18,16 +18,6 @@ use super::{ParseError, RawMesh, text};
 use document::Document;
 use scene::Scene;
 
-/// How much of a file is looked at for the root element, which comments may precede.
-const PROLOGUE: usize = 4096;
-
-/// Whether the text begins as a Collada file does.
-pub(super) fn is_collada(text: &[u8]) -> bool {
-    let start = &text[..text.len().min(PROLOGUE)];
-    let has = |root: &[u8]| start.windows(root.len()).any(|w| w == root);
-    start.trim_ascii_start().starts_with(b"<") && (has(b"<COLLADA") || has(b":COLLADA"))
-}
-
 /// Reads what the scene shows, in the file's unit of length, and that unit.
 pub(super) fn parse(bytes: &[u8]) -> Result<(RawMesh, FileUnit), ParseError> {
     let file = text::decode(bytes);

@@ -147,7 +147,7 @@ fn iges(bytes: &[u8]) -> Option<Foreign> {
 fn of_text(text: &[u8]) -> Option<Foreign> {
     let start = String::from_utf8_lossy(&text[..text.len().min(PROLOGUE)]).to_ascii_lowercase();
     if start.starts_with('<') {
-        if super::collada::is_collada(text) {
+        if is_collada(text) {
             return None;
         }
         let root = ROOTS.iter().find(|(root, _)| start.contains(root));
@@ -155,6 +155,13 @@ fn of_text(text: &[u8]) -> Option<Foreign> {
     }
     let first = super::text::words(&start).next()?.1;
     WORDS.contains(&first).then_some(OFF)
+}
+
+/// Whether the text begins as a Collada file does.
+pub(super) fn is_collada(text: &[u8]) -> bool {
+    let start = &text[..text.len().min(PROLOGUE)];
+    let has = |root: &[u8]| start.windows(root.len()).any(|w| w == root);
+    start.trim_ascii_start().starts_with(b"<") && (has(b"<COLLADA") || has(b":COLLADA"))
 }
 
 #[cfg(test)]

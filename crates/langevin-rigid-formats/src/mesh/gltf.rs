@@ -8,6 +8,7 @@ mod base64;
 mod beside;
 mod buffer;
 mod document;
+#[cfg_attr(not(feature = "draco"), path = "gltf/without_draco.rs")]
 mod draco;
 mod expected;
 mod instancing;

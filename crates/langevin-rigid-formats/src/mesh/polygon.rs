@@ -35,6 +35,7 @@ impl Polygons {
     }
 
     /// A hole in the polygon pushed last, running either way.
+    #[cfg(any(test, feature = "collada"))]
     pub(super) fn push_hole(&mut self, corners: impl IntoIterator<Item = u32>) {
         self.holes.push(self.corners.len());
         self.corners.extend(corners);

@@ -644,3 +644,14 @@ fn unreadable_files_are_told_apart() {
         "{error}"
     );
 }
+
+#[cfg(not(feature = "collada"))]
+#[test]
+fn without_its_reader_collada_is_refused_by_name() {
+    let file = b"<?xml version=\"1.0\"?><COLLADA version=\"1.4.1\"/>";
+    assert_eq!(MeshFormat::of_content(file), Some(MeshFormat::Collada));
+    let refused = parse_mesh(file, MeshFormat::Collada, None, None).unwrap_err();
+    let refused = refused.to_string();
+    let named = refused.contains("without the feature `collada`");
+    assert!(named, "{refused}");
+}

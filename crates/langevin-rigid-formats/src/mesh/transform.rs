@@ -16,6 +16,7 @@ impl Transform {
     };
 
     /// A linear map, by its rows.
+    #[cfg(feature = "collada")]
     pub(super) fn of_linear(linear: [[f64; 3]; 3]) -> Transform {
         Transform {
             linear,
@@ -24,6 +25,7 @@ impl Transform {
     }
 
     /// A row-major matrix, its last row taken to be 0, 0, 0, 1.
+    #[cfg(feature = "collada")]
     pub(super) fn of_rows(m: &[f64; 16]) -> Transform {
         Transform::of_matrix(&std::array::from_fn(|k| m[4 * (k % 4) + k / 4]))
     }

@@ -98,6 +98,7 @@ impl Default for FileUnit {
 
 impl FileUnit {
     /// A unit of so many metres.
+    #[cfg(feature = "collada")]
     pub(super) fn of_metres(metres: f64) -> FileUnit {
         let mut all = UNITS.into_iter().map(|(_, unit)| unit);
         // Programs write six or seven digits.

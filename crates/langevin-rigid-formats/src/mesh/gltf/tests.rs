@@ -5,10 +5,10 @@ use langevin_rigid_bake::shapes::Shape;
 
 use super::super::{MeshFormat, ParseError, RawMesh, parse_mesh};
 
-#[cfg(feature = "meshopt")]
+#[cfg(all(feature = "draco", feature = "meshopt"))]
 mod compressed;
 mod confined;
-#[cfg(feature = "meshopt")]
+#[cfg(all(feature = "draco", feature = "meshopt"))]
 mod damaged;
 mod features;
 mod proportion;
@@ -149,10 +149,17 @@ pub(crate) fn glb(json: &str, data: &[u8]) -> Vec<u8> {
 #[cfg(not(feature = "meshopt"))]
 #[test]
 fn without_its_decoder_meshoptimizer_is_refused_by_name() {
-    let ball = include_bytes!("../../../tests/data/ball-meshopt.glb");
-    let refused = fault(ball);
-    assert!(
-        refused.contains("without the feature `meshopt`"),
-        "{refused}"
-    );
+    let refused = fault(include_bytes!("../../../tests/data/ball-meshopt.glb"));
+    let named = refused.contains("without the feature `meshopt`");
+    assert!(named, "{refused}");
+}
+
+#[cfg(not(feature = "draco"))]
+#[test]
+fn without_its_decoder_draco_is_refused_by_name() {
+    let refused = fault(include_bytes!(
+        "../../../tests/data/ball-draco-edgebreaker.glb"
+    ));
+    let named = refused.contains("without the feature `draco`");
+    assert!(named, "{refused}");
 }
