@@ -345,7 +345,7 @@ export class App {
         throw error;
       }
       if (asked === this.#asked) {
-        trouble(error instanceof Stopped ? 'Stopped. The scene before is still here.' : error);
+        trouble(error instanceof Stopped ? 'Stopped. The scene before is still here.' : told(error, anew));
         this.#panel.show(this.#scene, this.#picture.main.run.description, this.#mesh);
         this.#chooseScene();
       }
@@ -524,4 +524,11 @@ export class App {
 
 function modelName(scene: SceneDocument): string {
   return String(scene.get('run.model') ?? 'separated');
+}
+
+/** What an error says; of a value from a control without its place in a file that nobody wrote. */
+function told(error: unknown, written: boolean): string {
+  const said = words(error);
+  const [, what, line] = /^[^\n]*?:\d+:\d+: (.*)\n +\d+ \| (.*)\n/.exec(said) ?? [];
+  return written || what === undefined ? said : `${what} (${line})`;
 }

@@ -68,6 +68,7 @@ export async function withMesh(
       unit: checked.unit,
       guessed: checked.unit_guessed || unit !== undefined,
       trouble: false,
+      sheet: thickness !== undefined,
       thickness,
     },
   };
@@ -83,6 +84,7 @@ export function unusable(name: string, error: unknown, { unit, thickness }: Read
     unit,
     guessed: false,
     trouble: true,
+    sheet: said.includes('needs a thickness'),
     thickness,
   };
 }

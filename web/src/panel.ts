@@ -28,6 +28,8 @@ export interface MeshTold {
   unit: string | undefined;
   guessed: boolean;
   trouble: boolean;
+  /** Whether it is a sheet, which has the thickness that it is given. */
+  sheet: boolean;
   thickness: number | undefined;
 }
 
@@ -184,7 +186,7 @@ export class Panel {
         ),
       );
     }
-    if (mesh.trouble || mesh.thickness !== undefined) {
+    if (mesh.sheet) {
       parts.push(
         this.#number(
           'mesh-thickness',

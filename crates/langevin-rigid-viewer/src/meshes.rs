@@ -44,8 +44,12 @@ pub enum MeshTrouble {
     Read(#[from] ReadError),
     /// It is open.
     #[error(
-        "the surface is open: {holes} holes, the largest {perimeter:.4} m around; a sheet (paper, leaf, shell) needs a \
-         thickness, other holes are closed in the program that made the mesh"
+        "the surface is open: {} {perimeter:.4} m around; a sheet (paper, leaf, shell) needs a thickness, other holes are \
+         closed in the program that made the mesh",
+        match holes {
+            1 => "a hole".to_owned(),
+            holes => format!("{holes} holes, the largest"),
+        }
     )]
     Open {
         /// How many holes are left.

@@ -16,7 +16,7 @@ pub(super) fn given<T>(value: T) -> Given<T> {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawScene {
     pub(super) description: Option<String>,
     pub(super) fluid: Spanned<RawFluid>,
@@ -46,7 +46,7 @@ pub(super) struct RawScene {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawContact {
     pub(super) friction: Given<f64>,
     pub(super) restitution: Given<f64>,
@@ -54,7 +54,7 @@ pub(super) struct RawContact {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawObstacle {
     pub(super) shape: Given<String>,
     pub(super) size: Given<Vec<f64>>,
@@ -70,7 +70,7 @@ pub(super) struct RawObstacle {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawWater {
     pub(super) level: Given<f64>,
     pub(super) preset: Given<String>,
@@ -81,7 +81,7 @@ pub(super) struct RawWater {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawWaves {
     pub(super) height: Given<f64>,
     pub(super) period: Given<f64>,
@@ -90,7 +90,7 @@ pub(super) struct RawWaves {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawCrowd {
     pub(super) count: Given<i64>,
     pub(super) over: Given<Vec<f64>>,
@@ -102,14 +102,14 @@ pub(super) struct RawCrowd {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawCrowdKind {
     pub(super) scene: Given<String>,
     pub(super) share: Given<f64>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawFluid {
     pub(super) preset: Given<String>,
     pub(super) density: Given<f64>,
@@ -118,7 +118,7 @@ pub(super) struct RawFluid {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawBody {
     pub(super) shape: Given<String>,
     pub(super) semi_axes: Given<Vec<f64>>,
@@ -150,7 +150,7 @@ pub(super) struct RawBody {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawRegion {
     pub(super) from: Given<Vec<f64>>,
     pub(super) to: Given<Vec<f64>>,
@@ -158,7 +158,7 @@ pub(super) struct RawRegion {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawBallast {
     pub(super) mass: Given<f64>,
     pub(super) position: Given<Vec<f64>>,
@@ -166,7 +166,7 @@ pub(super) struct RawBallast {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawRelease {
     pub(super) position: Given<Vec<f64>>,
     pub(super) tilt: Given<f64>,
@@ -179,7 +179,7 @@ pub(super) struct RawRelease {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawRun {
     pub(super) model: Given<String>,
     pub(super) integrator: Given<String>,
@@ -194,7 +194,7 @@ pub(super) struct RawRun {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawTurbulence {
     pub(super) length: Given<f64>,
     pub(super) cells: Given<Vec<i64>>,
@@ -206,13 +206,13 @@ pub(super) struct RawTurbulence {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawPicture {
     pub(super) interval: Given<f64>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawScatter {
     pub(super) tilt: Given<f64>,
     pub(super) spin: Given<f64>,
@@ -220,7 +220,7 @@ pub(super) struct RawScatter {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawWind {
     pub(super) field: Given<String>,
     pub(super) velocity: Given<Vec<f64>>,
@@ -245,7 +245,7 @@ pub(super) struct RawWind {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawWithin {
     pub(super) centre: Given<Vec<f64>>,
     pub(super) size: Given<Vec<f64>>,
@@ -254,13 +254,13 @@ pub(super) struct RawWithin {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawTank {
     pub(super) size: Spanned<Vec<f64>>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawSeparated {
     pub(super) attachment: Given<f64>,
     pub(super) broadside_attachment: Given<f64>,
@@ -276,14 +276,14 @@ pub(super) struct RawSeparated {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawSteering {
     pub(super) every: Given<f64>,
     pub(super) force: Given<Vec<Spanned<Vec<f64>>>>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawDirect {
     pub(super) best: Given<i64>,
     pub(super) falls: Given<i64>,
@@ -297,7 +297,7 @@ pub(super) struct RawDirect {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawFree {
     pub(super) tilt: Given<f64>,
     pub(super) heading: Given<f64>,
@@ -307,7 +307,7 @@ pub(super) struct RawFree {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawLand {
     pub(super) at: Given<Vec<f64>>,
     pub(super) within: Given<f64>,
@@ -317,14 +317,14 @@ pub(super) struct RawLand {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawPath {
     pub(super) file: Given<String>,
     pub(super) within: Given<f64>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawRing {
     pub(super) centre: Given<Vec<f64>>,
     pub(super) normal: Given<Vec<f64>>,
