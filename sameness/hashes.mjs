@@ -1,7 +1,7 @@
 // The hashes of the WebAssembly build, run where this is called: in Node.js or in a page, which is given its text alone.
 export async function hashes(bytes) {
     const module = await WebAssembly.compile(bytes);
-    // A dependency of the file formats asks the browser for random numbers; no case does.
+    // What a library may ask of a browser, no case calls.
     const imports = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module)) {
         imports[from] ??= {};
