@@ -392,9 +392,11 @@ export class App {
     const text = this.#textOf(name);
     const builtIn = text === undefined ? undefined : SceneDocument.parse(name, text);
     const duration = builtIn?.get('run.duration') ?? DURATION;
-    const untouched = builtIn?.with({ 'run.duration': duration }).text() === this.#scene.text();
+    const same = builtIn?.with({ 'run.duration': duration }).text() === this.#scene.text();
+    const untouched = same && this.#tables === undefined;
     if (!untouched) {
-      select.prepend(h('option', { value: 'own', data: { own: '' } }, `${name} (changed)`));
+      const what = this.#tables !== undefined ? ' (recorded)' : builtIn !== undefined ? ' (changed)' : '';
+      select.prepend(h('option', { value: 'own', data: { own: '' } }, `${name}${what}`));
     }
     select.value = untouched ? name : 'own';
   }

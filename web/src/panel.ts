@@ -96,6 +96,15 @@ export class Panel {
     this.#events.change({ [path]: value });
   }
 
+  /** Another dimension: the characteristic sizes that belonged to the old one go. */
+  #resize(path: string, value: unknown): void {
+    this.#events.change({
+      [path]: value,
+      'body.characteristic_thickness': undefined,
+      'body.characteristic_length': undefined,
+    });
+  }
+
   #body(scene: SceneDocument, description: Description | undefined, mesh: MeshTold | undefined): HTMLElement {
     const body = scene.get('body') as Values;
     const file = h('input', {
@@ -122,7 +131,7 @@ export class Panel {
         .filter(([key]) => typeof body[key] === 'number' || typeof body[key] === 'bigint')
         .map(([key, words]) =>
           this.#number(`body-${key}`, words, 'mm', 1000 * Number(body[key]), { min: 0 }, (value) =>
-            this.#set(`body.${key}`, value / 1000),
+            this.#resize(`body.${key}`, value / 1000),
           ),
         ),
       ...Object.entries(TRIPLES)
@@ -143,7 +152,7 @@ export class Panel {
 
   #dimensions(id: string, path: string, words: string, values: number[]): HTMLElement {
     const change = (axis: number, value: number): void =>
-      this.#set(
+      this.#resize(
         path,
         values.map((old, place) => (place === axis ? value / 1000 : Number(old))),
       );
@@ -223,7 +232,7 @@ export class Panel {
 
   #fluid(scene: SceneDocument, description: Description | undefined): HTMLElement {
     const fluid = scene.get('fluid') as Values;
-    const key = fluidKey(fluid);
+    const key = fluidKey(fluid, description);
     const choices = Object.entries(FLUIDS).map(([key, { words }]): [string, string] => [key, words]);
     const own = key === 'own';
     const choose = (key: string): void => {
@@ -486,7 +495,8 @@ function input(
 function bodyKey(scene: SceneDocument): string {
   const body = scene.get('body') as Values;
   const same = (values: Values): boolean =>
-    values['shape'] === body['shape'] && Object.keys(body).every((key) => key in values);
+    values['shape'] === body['shape'] &&
+    Object.keys(body).every((key) => key in values || key.startsWith('characteristic'));
   const found = Object.entries(BODIES)
     .filter(([, { values }]) => values !== undefined && same(values))
     .map(([key]) => key);
@@ -498,10 +508,10 @@ function bodyKey(scene: SceneDocument): string {
   return byScene[String(body['shape'])] ?? found.find((key) => key === scene.name) ?? found[0] ?? 'own';
 }
 
-function fluidKey(fluid: Values): string {
+function fluidKey(fluid: Values, description: Description | undefined): string {
   const same = ([, { values }]: [string, { values: Values }]): boolean =>
     Object.entries(values).every(([key, value]) => fluid[key] === value);
-  return Object.entries(FLUIDS).find(same)?.[0] ?? 'own';
+  return Object.entries(FLUIDS).find(same)?.[0] ?? description?.fluid ?? 'own';
 }
 
 function tiltOf([x, , z]: Quat): number {

@@ -25,6 +25,7 @@ export interface Description {
   mass: number;
   volume: number;
   density: number;
+  fluid: string | null;
   fluid_density: number;
   fluid_viscosity: number;
   half_extents: Vec3;

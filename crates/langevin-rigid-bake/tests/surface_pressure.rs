@@ -1,4 +1,5 @@
 //! Pressures on the panels of baked bodies against closed forms.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid::Body;
 use langevin_rigid::linalg::Vec3;

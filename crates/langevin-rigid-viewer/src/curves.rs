@@ -2,12 +2,15 @@
 
 use langevin_rigid::linalg::rotate;
 use langevin_rigid::linalg::vector::{dot, norm, sub};
-use langevin_rigid::{Input, Loads, State};
+use langevin_rigid::{Input, Loads, State, falling_speed};
 use langevin_rigid_scenes::advance::input;
 use langevin_rigid_scenes::prepared::Release;
 
 use crate::run::Run;
 use crate::session::Session;
+
+/// A body that is slower than this share of its falling speed has no direction.
+const RESTING: f64 = 1e-2;
 
 /// Numbers of a body at each frame of its run.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -23,7 +26,7 @@ pub struct Curves {
     pub kinetic: Vec<f32>,
     /// The same with the potential energy above the lowest place of the run (J).
     pub energy: Vec<f32>,
-    /// Attachment of the flow, 0 to 1; NaN in models without it, and in a scene with water.
+    /// Attachment of the flow, 0 to 1; NaN in models without it, in a scene with water, and of a body that hardly moves.
     pub attachment: Vec<f32>,
 }
 
@@ -56,6 +59,7 @@ impl Session {
             pull if pull > 0.0 => gravity.map(|g| -g / pull),
             _ => [0.0, 1.0, 0.0],
         };
+        let falls = falling_speed(body, &scene.fluid, gravity);
         let mut curves = Curves::default();
         for state in run.states() {
             let kinetic = match self.has_water() {
@@ -64,10 +68,10 @@ impl Session {
             };
             let axis = rotate(state.orientation, [0.0, 1.0, 0.0]);
             let tilt = dot(axis, up).clamp(-1.0, 1.0).acos().to_degrees();
-            let attachment = match self.has_water() {
-                true => None,
-                false => stepper.attachment(state, &self.input(state)),
-            };
+            let input = self.input(state);
+            let [through, _] = stepper.relative_velocities(state, &input);
+            let told = !self.has_water() && norm(through) > RESTING * falls;
+            let attachment = told.then(|| stepper.attachment(state, &input)).flatten();
             let turns = norm(state.angular_velocity) / std::f64::consts::TAU;
             curves.speed.push(norm(state.velocity) as f32);
             curves.tilt.push(tilt as f32);

@@ -1,7 +1,7 @@
 //! What a page says of a scene, and what stands around its bodies.
 
 use langevin_rigid::linalg::Vec3;
-use langevin_rigid::{falling_reynolds, falling_speed};
+use langevin_rigid::{Fluid, falling_reynolds, falling_speed};
 use serde::Serialize;
 
 use crate::session::Session;
@@ -23,6 +23,8 @@ pub struct Description {
     pub volume: f64,
     /// Mean density of the body (kg/m^3).
     pub density: f64,
+    /// Name of the fluid, if it is one of the presets.
+    pub fluid: Option<&'static str>,
     /// Density of the fluid (kg/m^3).
     pub fluid_density: f64,
     /// Kinematic viscosity of the fluid (m^2/s).
@@ -95,6 +97,7 @@ impl Session {
             mass: body.mass,
             volume: body.volume,
             density: body.density(),
+            fluid: preset(fluid),
             fluid_density: fluid.density,
             fluid_viscosity: fluid.viscosity,
             half_extents: body.half_extents,
@@ -128,4 +131,13 @@ impl Session {
             solids: solids.collect(),
         }
     }
+}
+
+/// The preset that a fluid is, whatever its stream.
+fn preset(fluid: &Fluid) -> Option<&'static str> {
+    let presets = [("air", Fluid::AIR), ("water", Fluid::WATER)];
+    let same =
+        |preset: &Fluid| (preset.density, preset.viscosity) == (fluid.density, fluid.viscosity);
+    let found = presets.iter().find(|(_, preset)| same(preset));
+    found.map(|(name, _)| *name)
 }
