@@ -7,6 +7,8 @@ const served = 'http://localhost:4173/';
 export default defineConfig({
   testDir: 'tests',
   forbidOnly: true,
+  // A busy machine may starve a browser once.
+  retries: 1,
   reporter: 'line',
   fullyParallel: true,
   workers: 2,
