@@ -57,7 +57,7 @@ export class App {
     body: (key) => void this.#chooseBody(key),
     mesh: (file) => void this.#openFile(file),
     meshAgain: (unit, thickness) => void this.#readMesh({ unit, thickness }),
-    compare: (comparison) => void this.#compare(comparison),
+    compare: (comparison) => void this.#compareAnew(comparison),
     many: (on) => void (on ? this.#startMany() : this.#stopMany()),
   });
   readonly #address = new Address(
@@ -442,6 +442,12 @@ export class App {
   }
 
   // What it is compared with
+
+  /** Another comparison is seen from the release on. */
+  async #compareAnew(comparison: Comparison): Promise<void> {
+    await this.#compare(comparison);
+    this.#playback.begin(!reducedMotion());
+  }
 
   async #compare(comparison: Comparison): Promise<void> {
     const asked = this.#asked;

@@ -135,17 +135,11 @@ export class Landings {
     const scale = width / 2 / reach;
     const step = ring(reach);
     paint.strokeStyle = colour('line');
-    paint.fillStyle = colour('muted');
-    paint.font = '22px system-ui';
     paint.lineWidth = 2;
     for (let radius = step; radius < 1.4 * reach; radius += step) {
       paint.beginPath();
       paint.arc(width / 2, height / 2, radius * scale, 0, 2 * Math.PI);
       paint.stroke();
-      const top = height / 2 - radius * scale - 6;
-      if (top > 24) {
-        paint.fillText(metres(radius), width / 2 + 6, top);
-      }
     }
     paint.globalAlpha = 0.75;
     for (const { place, motion } of down) {
@@ -156,6 +150,7 @@ export class Landings {
       paint.fill();
     }
     paint.globalAlpha = 1;
+    this.#name(paint, step, 1.4 * reach, scale);
     paint.strokeStyle = colour('text');
     paint.lineWidth = 3;
     paint.beginPath();
@@ -164,6 +159,23 @@ export class Landings {
     paint.moveTo(width / 2, height / 2 - 10);
     paint.lineTo(width / 2, height / 2 + 10);
     paint.stroke();
+  }
+
+  /** Says how far the rings are, over what lies there. */
+  #name(paint: CanvasRenderingContext2D, step: number, end: number, scale: number): void {
+    const { width, height } = this.#canvas;
+    paint.font = '22px system-ui';
+    paint.lineWidth = 6;
+    paint.lineJoin = 'round';
+    paint.strokeStyle = colour('surface');
+    paint.fillStyle = colour('text');
+    for (let radius = step; radius < end; radius += step) {
+      const top = height / 2 - radius * scale - 6;
+      if (top > 24) {
+        paint.strokeText(metres(radius), width / 2 + 6, top);
+        paint.fillText(metres(radius), width / 2 + 6, top);
+      }
+    }
   }
 }
 

@@ -119,3 +119,70 @@ impl Session {
         run.states().iter().flat_map(at).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn card(more: &str) -> Session {
+        let text = format!(
+            r#"
+            fluid.preset = "air"
+            body = {{ shape = "box", size = [0.05, 0.001, 0.05], triangles = 80, density = 500.0 }}
+            release = {{ position = [0.0, 2.0, 0.0], tilt = 30.0, velocity = [0.5, 0.0, 0.0] }}
+            {more}
+            "#
+        );
+        Session::open("card", &text, None, &()).unwrap()
+    }
+
+    #[test]
+    fn what_nothing_resists_keeps_its_energy() {
+        let session = card(r#"run = { time_step = 0.001, duration = 0.3, model = "kirchhoff" }"#);
+        let run = session.drop(&()).unwrap();
+        let curves = session.curves(&run);
+        assert_eq!(curves.energy.len(), 301);
+        for energy in &curves.energy {
+            assert!((energy / curves.energy[0] - 1.0).abs() < 1e-5, "{energy}");
+        }
+        assert!((curves.tilt[0] - 30.0).abs() < 1e-3 && (curves.speed[0] - 0.5).abs() < 1e-6);
+        assert!(curves.attachment.iter().all(|a| a.is_nan()));
+    }
+
+    #[test]
+    fn loads_are_those_of_the_frames() {
+        let session = card(r#"run = { time_step = 0.001, duration = 0.3 }"#);
+        let run = session.drop(&()).unwrap();
+        let loads = session.loads(&run);
+        let causes = causes();
+        assert_eq!(loads.len(), run.states().len() * causes.len() * 6);
+        // Weight is the same at every frame, drag grows.
+        let of = |cause: &str, frame: usize| {
+            let place = causes.iter().position(|name| *name == cause).unwrap();
+            let first = (frame * causes.len() + place) * 6;
+            loads[first..first + 3]
+                .iter()
+                .map(|x| x * x)
+                .sum::<f32>()
+                .sqrt()
+        };
+        let weight = 9.81 * 0.05f32 * 0.001 * 0.05 * 500.0;
+        for frame in [0, 300] {
+            assert!((of("weight", frame) / weight - 1.0).abs() < 1e-3);
+        }
+        assert!(of("drag", 300) > of("drag", 0));
+    }
+
+    #[test]
+    fn in_water_there_are_no_loads_of_air() {
+        let session = card(
+            r#"
+            run = { time_step = 0.002, duration = 0.2 }
+            water = { level = 0.0 }
+            "#,
+        );
+        let run = session.drop(&()).unwrap();
+        assert!(session.loads(&run).is_empty());
+        assert!(session.curves(&run).energy.iter().all(|e| e.is_nan()));
+    }
+}

@@ -227,3 +227,61 @@ fn sampled(bodies: &mut [Body], trajectories: &[Trajectory]) -> Frames {
 fn pose([x, y, z]: [f64; 3], q: [f64; 4]) -> [f32; 7] {
     [x, y, z, q[0], q[1], q[2], q[3]].map(|number| number as f32)
 }
+
+#[cfg(test)]
+mod tests {
+    use langevin_rigid_formats::trajectory::{csv, read_csv};
+
+    use super::*;
+    use crate::session::Session;
+
+    #[test]
+    fn a_run_from_its_table_is_the_run() {
+        let text = r#"
+            fluid.preset = "air"
+            body = { shape = "box", size = [0.05, 0.001, 0.05], triangles = 80, density = 500.0 }
+            release = { position = [0.0, 1.0, 0.0], tilt = 30.0 }
+            run = { time_step = 0.002, duration = 5.0, ground = 0.0 }
+        "#;
+        let session = Session::open("card", text, None, &()).unwrap();
+        let run = session.drop(&()).unwrap();
+        assert_eq!(run.bodies()[0].ending, "ground");
+        let table = csv(&run.trajectories()[0]);
+        let again = session.replay(read_csv(&table).unwrap(), &[]).unwrap();
+        assert_eq!(again.frames(), run.frames());
+        assert_eq!(again.bodies()[0].ending, "recorded");
+        assert!(matches!(
+            session.replay(Vec::new(), &[]),
+            Err(ReplayError::Nobody)
+        ));
+    }
+
+    #[test]
+    fn bodies_of_a_crowd_come_when_they_are_let_go() {
+        let text = r#"
+            fluid.preset = "air"
+            body = { shape = "box", size = [0.05, 0.001, 0.05], triangles = 80, density = 500.0 }
+            release = { position = [0.0, 1.0, 0.0] }
+            run = { time_step = 0.004, duration = 1.0, ground = 0.0 }
+            contact = {}
+            crowd = { count = 4, over = [1.0, 0.2, 1.0], during = 0.4 }
+        "#;
+        let session = Session::open("cards", text, None, &()).unwrap();
+        let run = session.drop(&()).unwrap();
+        let frames = run.frames();
+        assert_eq!(run.bodies().len(), 4);
+        assert!(run.states().is_empty());
+        assert!(
+            run.bodies()
+                .windows(2)
+                .all(|pair| pair[0].from < pair[1].from)
+        );
+        for (body, poses) in run.bodies().iter().zip(&frames.poses) {
+            assert_eq!(body.from + poses.len(), frames.times.len());
+            // It falls from where it begins.
+            assert!(poses[0][1] > poses[poses.len() - 1][1]);
+        }
+        let step = frames.times[1] - frames.times[0];
+        assert!((step - 1.0 / 60.0).abs() < 1e-12);
+    }
+}
