@@ -10,8 +10,9 @@ mod strips;
 
 use langevin_rigid_bake::progress::Progress;
 
+use crate::Options;
+use crate::error::ReportError;
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 pub(crate) fn section(options: &Options, progress: &dyn Progress) -> Result<Section, ReportError> {
     let title = "Beyond the paper: the separated wake against measurements";

@@ -7,8 +7,9 @@ use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene;
 
 use crate::chart::{Chart, Curve};
+use crate::error::ReportError;
 use crate::section::{Section, figure};
-use crate::{Options, ReportError, paper};
+use crate::{Options, paper};
 
 /// Drops for each seed asked for: a standard deviation wants many.
 const DROPS_PER_SEED: u32 = 20;

@@ -14,11 +14,12 @@ use langevin_rigid_scenes::baking;
 use rayon::prelude::*;
 
 use crate::chart::{Chart, Curve};
+use crate::error::ReportError;
 use crate::measures::Axes;
 use crate::numbers::significant;
 use crate::runs::{CONSISTENT, CONSISTENT_HISTORY, Reading, Setting};
 use crate::section::{Section, figure};
-use crate::{Options, ReportError, paper};
+use crate::{Options, paper};
 
 const PUBLISHED: Model = Model::Published(UnitSystem::Cgs);
 const PUBLISHED_SI: Model = Model::Published(UnitSystem::Si);

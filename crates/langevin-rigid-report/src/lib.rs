@@ -33,7 +33,9 @@
 mod chart;
 mod closure;
 mod coin;
+mod data_uri;
 mod departures;
+mod error;
 mod falls;
 mod fig2;
 mod html;
@@ -54,16 +56,11 @@ mod validation;
 
 use std::path::{Path, PathBuf};
 
-use langevin_rigid::{SetupError, UnknownName, choose};
+use langevin_rigid::{UnknownName, choose};
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_bake::turbulence::TurbulenceError;
-use langevin_rigid_formats::files::{self, WriteError};
-use langevin_rigid_pictures::PictureError;
-use langevin_rigid_scenes::baking::SceneBakeError;
-use langevin_rigid_scenes::prepared::PrepareError;
-use langevin_rigid_scenes::scene::{FindError, SceneWindError};
-use langevin_rigid_scenes::together::SurroundingsError;
+use langevin_rigid_formats::files;
 
+pub use error::ReportError;
 pub use numbers::Numbers;
 pub use section::{Claim, Section};
 pub use table::Table;
@@ -156,53 +153,6 @@ impl PartialEq for Part {
 impl std::fmt::Debug for Part {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("Part").field(&self.name).finish()
-    }
-}
-
-/// Why there is no report, or only a part of it.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum ReportError {
-    /// A built-in scene is damaged.
-    #[error(transparent)]
-    Scene(#[from] FindError),
-    /// A scene could not be baked.
-    #[error(transparent)]
-    Bake(#[from] SceneBakeError),
-    /// A body could not be made ready to step.
-    #[error(transparent)]
-    Setup(#[from] SetupError),
-    /// A wind is none.
-    #[error(transparent)]
-    Wind(#[from] SceneWindError),
-    /// What bodies meet in a scene is none.
-    #[error(transparent)]
-    Surroundings(#[from] SurroundingsError),
-    /// The turbulence could not be computed.
-    #[error(transparent)]
-    Turbulence(#[from] TurbulenceError),
-    /// A picture could not be drawn.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-    /// Numbers could not be written as JSON.
-    #[error(transparent)]
-    Json(std::io::Error),
-    /// A file could not be written.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-    /// The caller's [`Progress`] asked to stop.
-    #[error("the report was cancelled")]
-    Cancelled,
-}
-
-impl From<PrepareError> for ReportError {
-    fn from(error: PrepareError) -> Self {
-        match error {
-            PrepareError::Bake(error) => Self::Bake(error),
-            PrepareError::Setup(error) => Self::Setup(error),
-            PrepareError::Wind(error) => Self::Wind(error),
-            PrepareError::Surroundings(error) => Self::Surroundings(error),
-        }
     }
 }
 

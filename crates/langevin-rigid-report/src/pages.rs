@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use langevin_rigid_formats::files::{self, WriteError};
 
-use crate::Table;
+use crate::table::Table;
 
 /// The tables of a part that was computed, under its name.
 pub type Computed<'a> = (&'a str, &'a [Table]);

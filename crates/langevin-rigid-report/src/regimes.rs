@@ -3,8 +3,9 @@
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_scenes::regimes::{self, Agreement, Plate};
 
+use crate::Options;
+use crate::error::ReportError;
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 /// Values of I* and of the Reynolds number in the map.
 const GRID: [u32; 2] = [10, 6];

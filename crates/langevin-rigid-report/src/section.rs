@@ -5,9 +5,10 @@ use std::fmt::Write;
 use langevin_rigid_pictures::Picture;
 
 use crate::chart::{Chart, escape};
-use crate::html::png_uri;
+use crate::data_uri::png_uri;
+use crate::error::ReportError;
 use crate::numbers::{Numbers, Quoted};
-use crate::{ReportError, Table};
+use crate::table::Table;
 
 /// One result of the paper, computed again.
 #[derive(Debug, Clone, PartialEq)]

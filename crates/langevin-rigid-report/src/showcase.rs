@@ -5,11 +5,12 @@ use langevin_rigid_formats::trajectory::{Trajectory, csv};
 use langevin_rigid_pictures::View;
 use langevin_rigid_scenes::scene::BUILT_IN;
 
+use crate::Options;
 use crate::chart::escape;
+use crate::error::ReportError;
 use crate::measures::{Axes, Measures, Scale};
 use crate::runs::{Reading, Setting};
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 /// The scenes of the paper's own figures; those of its Table 2 have names of one family.
 const OF_THE_PAPER: [&str; 4] = ["paper-75", "paper-30", "airplane", "ellipsoid-water"];

@@ -5,8 +5,9 @@ mod turbulence;
 
 use langevin_rigid_bake::progress::Progress;
 
+use crate::Options;
+use crate::error::ReportError;
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 pub(crate) fn section(_: &Options, progress: &dyn Progress) -> Result<Section, ReportError> {
     let title = "Beyond the paper: the precomputation against closed forms";

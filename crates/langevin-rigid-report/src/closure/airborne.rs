@@ -7,8 +7,9 @@ use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene;
 
 use super::drop::{between, fall, mean, median};
+use crate::Options;
+use crate::error::ReportError;
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 /// Seeds of each scene.
 const SEEDS: u64 = 10;

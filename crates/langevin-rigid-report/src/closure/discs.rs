@@ -4,8 +4,9 @@ use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_scenes::ensemble::MotionClass;
 use langevin_rigid_scenes::regimes::{self, Case, Plate, TILTS};
 
+use crate::Options;
+use crate::error::ReportError;
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 /// The classes of the points, from 1.
 const CLASSES: [MotionClass; 4] = [

@@ -6,9 +6,10 @@ use langevin_rigid_bake::shapes::Shape;
 use rayon::prelude::*;
 
 use super::drop::{baked, between, facing, fall, mean, median, stepper};
+use crate::Options;
+use crate::error::ReportError;
 use crate::references::papers::{DROPS, HEIGHT, LANDED, LAST, SOURCE, THICKNESS, WEIGHT};
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 /// Falls of each kind.
 const FALLS: u64 = 24;

@@ -8,8 +8,9 @@ use langevin_rigid_bake::shapes::Shape;
 use rayon::prelude::*;
 
 use super::drop::{baked, between, fall, mean, stepper, turned};
+use crate::Options;
+use crate::error::ReportError;
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 const REYNOLDS: [f64; 13] = [
     0.1, 1.0, 10.0, 30.0, 100.0, 300.0, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5,

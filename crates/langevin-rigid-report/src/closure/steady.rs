@@ -7,8 +7,9 @@ use langevin_rigid_bake::separation::pressure_drag;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_scenes::baking::SceneBakeError;
 
+use crate::Options;
+use crate::error::ReportError;
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 const ALONG: [f64; 3] = [1.0, 0.0, 0.0];
 const ACROSS: [f64; 3] = [0.0, 1.0, 0.0];

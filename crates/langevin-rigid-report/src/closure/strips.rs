@@ -7,9 +7,10 @@ use langevin_rigid_scenes::ensemble::MotionClass;
 use langevin_rigid_scenes::regimes::{self, Case, Plate, TILTS, broadside_speed};
 
 use super::drop::{between, fall, mean, stepper, turned};
+use crate::Options;
+use crate::error::ReportError;
 use crate::references::strips::{GLIDE, ONSET, SHIFTED, TIP_SPEED, autorotation};
 use crate::section::Section;
-use crate::{Options, ReportError};
 
 /// Thickness over chord of the strips that fall.
 const THICKNESS: f64 = 0.07;
