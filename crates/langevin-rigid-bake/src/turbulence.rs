@@ -42,14 +42,16 @@ mod grid;
 mod history;
 mod k_epsilon;
 mod lanes;
+mod lattice;
 mod projection;
 mod sampler;
 mod transform;
 
 pub use flow::TurbulentFlow;
-pub use grid::{Boundary, MacGrid};
+pub use grid::MacGrid;
 pub use history::{FlowOptions, Sampling, turbulence_history};
 pub use k_epsilon::{C_1, C_2, KEpsilon, decayed};
+pub use lattice::Boundary;
 pub use projection::Projection;
 
 /// Why a turbulence history could not be computed.

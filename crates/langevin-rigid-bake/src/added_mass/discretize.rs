@@ -6,7 +6,7 @@ use super::edges::{Edges, folds};
 use super::flip::flip_flat_edges;
 use super::frame::Frame;
 use super::layer::{self, Inserted};
-use super::matrix::Six;
+use super::operator::Six;
 use super::panels::Vec3;
 use super::refine::bisect;
 use super::report::Cancel;

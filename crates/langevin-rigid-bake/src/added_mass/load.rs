@@ -1,7 +1,7 @@
 //! Right-hand sides of the six unit motions.
 
-use super::matrix::Six;
 use super::operator::Operator;
+use super::operator::Six;
 use super::panels::{Panel, Panels, Vec3};
 use super::sums::RowSums;
 use crate::mesh::vector::{cross, dot};

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use wide::bytemuck::cast_slice;
 use wide::f64x4;
 
-use super::operator::{Operator, SparseRow};
+use super::operator::{Operator, Six, SparseRow};
 
 /// Columns per block: a block is the unit of parallel work.
 pub(super) const BLOCK: usize = 64;
@@ -12,9 +12,6 @@ pub(super) const BLOCK: usize = 64;
 pub(super) const GROUPS: usize = BLOCK / 4;
 /// Rows whose entries are reused from the first-level cache during a product.
 const STRIP: usize = 8;
-
-/// One value per motion.
-pub(super) type Six = [f64; 6];
 
 /// A symmetric n x n matrix as blocks of columns: block k holds entries (row, 64 k + lane), row by
 /// row; lanes beyond n are zero.

@@ -1,6 +1,7 @@
 //! What the solver needs of W: its products, its small blocks, and itself on a subspace.
 
-use super::matrix::Six;
+/// One value per motion.
+pub(super) type Six = [f64; 6];
 
 /// Entries of a sparse row or column.
 pub(super) type SparseRow = Vec<(u32, f64)>;

@@ -2,7 +2,7 @@
 
 use super::discretize::Discretized;
 use super::flow::Flow;
-use super::matrix::Six;
+use super::operator::Six;
 use super::panels::{Panel, Panels, Vec3};
 use super::report::{MeshQuality, Warning};
 use super::solver::TOLERANCE;

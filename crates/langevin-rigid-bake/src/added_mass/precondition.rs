@@ -12,7 +12,7 @@
 use rayon::prelude::*;
 
 use super::AddedMassError;
-use super::matrix::Six;
+use super::operator::Six;
 use super::operator::{Operator, SparseRow};
 use super::panels::Vec3;
 use super::report::Cancel;

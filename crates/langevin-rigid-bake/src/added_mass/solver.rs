@@ -1,8 +1,8 @@
 //! Preconditioned conjugate gradients for the six motions at once.
 
 use super::AddedMassError;
-use super::matrix::Six;
 use super::operator::Operator;
+use super::operator::Six;
 use super::precondition::Preconditioner;
 use super::report::Cancel;
 

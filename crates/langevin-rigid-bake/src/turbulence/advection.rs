@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 use wide::f64x4;
 
-use super::grid::{Boundary, Lattice, MacGrid};
+use super::grid::MacGrid;
 use super::lanes::{LANES, counted_from, load, store};
+use super::lattice::{Boundary, Lattice};
 
 /// Paths of the cell centres back over one step, by the midpoint rule in the frozen mean flow.
 ///

@@ -108,7 +108,7 @@ impl TurbulentFlow {
 
 #[cfg(test)]
 mod tests {
-    use super::super::grid::Boundary::{Periodic, Through, Walls};
+    use super::super::lattice::Boundary::{Periodic, Through, Walls};
     use super::*;
 
     const INFLOW: Turbulence = Turbulence {

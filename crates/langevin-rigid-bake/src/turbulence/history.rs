@@ -4,8 +4,9 @@ use langevin_rigid::turbulence::{Turbulence, TurbulenceHistory};
 
 use super::TurbulenceError;
 use super::flow::TurbulentFlow;
-use super::grid::{Boundary, MacGrid};
+use super::grid::MacGrid;
 use super::k_epsilon::decayed;
+use super::lattice::Boundary;
 use crate::progress::Progress;
 
 /// Where the turbulence is read.

@@ -7,7 +7,8 @@ use rayon::prelude::*;
 
 use super::TurbulenceError;
 use super::fft::{LINES, Sample};
-use super::grid::{Boundary, MacGrid};
+use super::grid::MacGrid;
+use super::lattice::Boundary;
 use super::transform::{AxisTransform, Workspace};
 
 /// The solver of one grid: plans and memory are made once, a projection allocates none per cell.

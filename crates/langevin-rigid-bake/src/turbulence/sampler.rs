@@ -2,8 +2,8 @@
 
 use wide::f64x4;
 
-use super::grid::{Boundary, Lattice};
 use super::lanes::{LANES, indices, nearest_whole, whole_below};
+use super::lattice::{Boundary, Lattice};
 
 /// How positions along one axis become the lower of two neighbours and a weight.
 #[derive(Debug, Clone, Copy)]

@@ -12,7 +12,7 @@
 //! two real lines: reorder, transform, part the two lines by the symmetry of their spectra, turn.
 
 use super::fft::{Fft, Sample, root_of_unity};
-use super::grid::Boundary;
+use super::lattice::Boundary;
 
 /// Buffers of one line of samples; `line` is what a transform reads and where it leaves its result.
 #[derive(Debug)]
