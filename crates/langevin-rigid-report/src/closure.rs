@@ -10,8 +10,8 @@ mod strips;
 
 use langevin_rigid_bake::progress::Progress;
 
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 use crate::section::Section;
 
 pub(crate) fn section(options: &Options, progress: &dyn Progress) -> Result<Section, ReportError> {

@@ -8,8 +8,9 @@ use langevin_rigid_scenes::scene;
 
 use crate::chart::{Chart, Curve};
 use crate::error::ReportError;
+use crate::options::Options;
+use crate::paper;
 use crate::section::{Section, figure};
-use crate::{Options, paper};
 
 /// Drops for each seed asked for: a standard deviation wants many.
 const DROPS_PER_SEED: u32 = 20;

@@ -17,9 +17,10 @@ use crate::chart::{Chart, Curve};
 use crate::error::ReportError;
 use crate::measures::Axes;
 use crate::numbers::significant;
+use crate::options::Options;
+use crate::paper;
 use crate::runs::{CONSISTENT, CONSISTENT_HISTORY, Reading, Setting};
 use crate::section::{Section, figure};
-use crate::{Options, paper};
 
 const PUBLISHED: Model = Model::Published(UnitSystem::Cgs);
 const PUBLISHED_SI: Model = Model::Published(UnitSystem::Si);

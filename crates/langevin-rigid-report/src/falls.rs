@@ -11,12 +11,13 @@ use langevin_rigid_pictures::View;
 use crate::chart::{Chart, Curve};
 use crate::error::ReportError;
 use crate::measures::{Axes, FIELDS, Field, Measures, Scale};
+use crate::options::Options;
+use crate::paper;
 use crate::runs::{
     CONSISTENT, CONSISTENT_HISTORY, Fall, KIRCHHOFF, READINGS, Reading, SEPARATED, Setting, typical,
 };
 use crate::section::{Claim, Section, figure};
 use crate::spread::Spread;
-use crate::{Options, paper};
 
 /// Share of the seeds from which a statement counts as reproduced, and as partly reproduced.
 const REPRODUCED: f64 = 0.5;

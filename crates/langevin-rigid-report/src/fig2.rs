@@ -9,9 +9,10 @@ use langevin_rigid_bake::turbulence::{FlowOptions, Sampling, decayed, turbulence
 
 use crate::chart::{Chart, Curve};
 use crate::error::ReportError;
+use crate::options::Options;
+use crate::paper;
 use crate::runs::Setting;
 use crate::section::{Section, figure};
-use crate::{Options, paper};
 
 /// Transits of the box that are computed: one to decay, one to see the plateau.
 const TRANSITS: f64 = 2.0;

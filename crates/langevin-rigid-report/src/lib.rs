@@ -42,6 +42,7 @@ mod html;
 mod machine;
 mod measures;
 mod numbers;
+mod options;
 pub mod pages;
 pub mod paper;
 mod references;
@@ -62,29 +63,9 @@ use langevin_rigid_formats::files;
 
 pub use error::ReportError;
 pub use numbers::Numbers;
+pub use options::{Options, Part};
 pub use section::{Claim, Section};
 pub use table::Table;
-
-/// What to compute.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// The parts, in the order of the page.
-    pub parts: Vec<Part>,
-    /// Seeds of each ensemble, one or more.
-    pub seeds: u32,
-    /// The first of them.
-    pub first_seed: u64,
-    /// Where bakes are kept, if anywhere.
-    pub cache: Option<PathBuf>,
-}
-
-/// A part of the report.
-#[derive(Clone, Copy)]
-pub struct Part {
-    /// Its name on the command line, in the page and on disk.
-    pub name: &'static str,
-    compute: fn(&Options, &dyn Progress) -> Result<Section, ReportError>,
-}
 
 /// All parts, in the order of the page. A new one is a row here.
 pub const PARTS: &[Part] = &[
@@ -141,18 +122,6 @@ impl Part {
     /// [`UnknownName`] if there is none.
     pub fn named(name: &str) -> Result<Self, UnknownName> {
         choose("part", name, PARTS.iter().map(|part| (part.name, *part)))
-    }
-}
-
-impl PartialEq for Part {
-    fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
-    }
-}
-
-impl std::fmt::Debug for Part {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("Part").field(&self.name).finish()
     }
 }
 

@@ -3,8 +3,8 @@
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_scenes::regimes::{self, Agreement, Plate};
 
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 use crate::section::Section;
 
 /// Values of I* and of the Reynolds number in the map.

@@ -13,8 +13,8 @@ use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene::{self, Scene};
 use rayon::prelude::*;
 
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 
 /// Equations of motion and source of turbulence.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,10 +5,10 @@ use langevin_rigid_formats::trajectory::{Trajectory, csv};
 use langevin_rigid_pictures::View;
 use langevin_rigid_scenes::scene::BUILT_IN;
 
-use crate::Options;
 use crate::chart::escape;
 use crate::error::ReportError;
 use crate::measures::{Axes, Measures, Scale};
+use crate::options::Options;
 use crate::runs::{Reading, Setting};
 use crate::section::Section;
 

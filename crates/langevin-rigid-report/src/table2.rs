@@ -10,10 +10,12 @@ use langevin_rigid_bake::turbulence::{FlowOptions, turbulence_history};
 use langevin_rigid_scenes::{baking, scene};
 
 use crate::chart::escape;
+use crate::error::ReportError;
+use crate::options::Options;
 use crate::runs::{CONSISTENT, SEPARATED, Setting};
 use crate::section::Section;
 use crate::spread::Spread;
-use crate::{Options, ReportError, machine, paper};
+use crate::{machine, paper};
 
 /// Steps timed at a time, and how often.
 const BATCH: u32 = 200;

@@ -5,8 +5,8 @@ mod turbulence;
 
 use langevin_rigid_bake::progress::Progress;
 
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 use crate::section::Section;
 
 pub(crate) fn section(_: &Options, progress: &dyn Progress) -> Result<Section, ReportError> {

@@ -7,8 +7,8 @@ use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene;
 
 use super::drop::{between, fall, mean, median};
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 use crate::section::Section;
 
 /// Seeds of each scene.

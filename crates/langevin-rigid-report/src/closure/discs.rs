@@ -4,8 +4,8 @@ use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_scenes::ensemble::MotionClass;
 use langevin_rigid_scenes::regimes::{self, Case, Plate, TILTS};
 
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 use crate::section::Section;
 
 /// The classes of the points, from 1.

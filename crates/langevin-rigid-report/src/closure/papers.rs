@@ -6,8 +6,8 @@ use langevin_rigid_bake::shapes::Shape;
 use rayon::prelude::*;
 
 use super::drop::{baked, between, facing, fall, mean, median, stepper};
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 use crate::references::papers::{DROPS, HEIGHT, LANDED, LAST, SOURCE, THICKNESS, WEIGHT};
 use crate::section::Section;
 

@@ -8,8 +8,8 @@ use langevin_rigid_bake::shapes::Shape;
 use rayon::prelude::*;
 
 use super::drop::{baked, between, fall, mean, stepper, turned};
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 use crate::section::Section;
 
 const REYNOLDS: [f64; 13] = [

@@ -7,8 +7,8 @@ use langevin_rigid_bake::separation::pressure_drag;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_scenes::baking::SceneBakeError;
 
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 use crate::section::Section;
 
 const ALONG: [f64; 3] = [1.0, 0.0, 0.0];

@@ -7,8 +7,8 @@ use langevin_rigid_scenes::ensemble::MotionClass;
 use langevin_rigid_scenes::regimes::{self, Case, Plate, TILTS, broadside_speed};
 
 use super::drop::{between, fall, mean, stepper, turned};
-use crate::Options;
 use crate::error::ReportError;
+use crate::options::Options;
 use crate::references::strips::{GLIDE, ONSET, SHIFTED, TIP_SPEED, autorotation};
 use crate::section::Section;
 
