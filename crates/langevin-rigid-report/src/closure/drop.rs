@@ -9,7 +9,7 @@ use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_scenes::baking::SceneBakeError;
 
-use crate::ReportError;
+use crate::error::ReportError;
 
 /// The homogeneous body of a shape, baked from about 1300 triangles.
 pub(super) fn baked(

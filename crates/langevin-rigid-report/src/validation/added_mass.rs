@@ -11,7 +11,7 @@ use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::Shape;
 use langevin_rigid_scenes::baking::SceneBakeError;
 
-use crate::ReportError;
+use crate::error::ReportError;
 use crate::references::{CUBE, PLATES, PRISMS};
 use crate::section::Section;
 

@@ -10,7 +10,7 @@ use langevin_rigid_bake::turbulence::{
     C_1, C_2, MacGrid, TurbulentFlow, decayed,
 };
 
-use crate::ReportError;
+use crate::error::ReportError;
 use crate::section::Section;
 
 /// What a stream carries in, and how fast (m/s).
