@@ -171,5 +171,5 @@ export class Charts {
 
 /** Joules in millijoules, all else as it is. */
 function scaled(name: CurveName, number: number): number {
-  return name === 'energy' || name === 'kinetic' ? 1000 * number : number;
+  return name === 'energy' ? 1000 * number : number;
 }

@@ -39,7 +39,7 @@ export class Crowd {
     const told = await working(`Letting ${MANY.toLocaleString('en')} go`, (news) =>
       this.engine.call('startMany', [coarse.name, coarse.text(), MANY], news),
     );
-    const { main, view, camera } = this.picture;
+    const { main, view } = this.picture;
     if (!wanted() || main === undefined) {
       return;
     }
@@ -54,7 +54,6 @@ export class Crowd {
     byId<HTMLInputElement>('follow').checked = false;
     view.lookFrom(new Vector3(0.35, 0.1, 1));
     view.lookAt(centre, 0.8 * reach);
-    camera.view.controls.update();
     this.#simulation = this.#drawing = 0;
     this.#swarm = swarm;
     document.body.dataset['many'] = 'on';

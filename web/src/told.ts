@@ -71,7 +71,6 @@ export interface OpenedRun {
   curves: Float32Array;
   /** Force and torque of each cause, frame by frame; empty of several bodies. */
   loads: Float32Array;
-  flow: Float32Array;
   milliseconds: { bake: number; run: number };
 }
 
@@ -94,7 +93,7 @@ export interface CheckedMesh {
 }
 
 /** The curves of a run, in the engine's order. */
-export const CURVES = ['speed', 'tilt', 'spin', 'kinetic', 'energy', 'attachment'] as const;
+export const CURVES = ['speed', 'tilt', 'spin', 'energy', 'attachment'] as const;
 export type CurveName = (typeof CURVES)[number];
 
 /** One of the curves of a run; none of several bodies. */

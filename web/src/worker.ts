@@ -11,7 +11,6 @@ import {
   get_file,
   initSync,
   put_file,
-  spelled_out,
   version,
 } from '../engine/engine.js';
 import type { BodyOfRun, CheckedMesh, Description, Landing, OpenedRun, SceneText } from './told';
@@ -66,10 +65,6 @@ const methods = {
 
   scenes(): SceneText[] {
     return JSON.parse(built_in_scenes()) as SceneText[];
-  },
-
-  spelledOut(_onProgress: OnProgress, name: string, text: string): string {
-    return spelled_out(name, text);
   },
 
   putFile(_onProgress: OnProgress, path: string, bytes: Uint8Array): void {
@@ -129,7 +124,6 @@ const methods = {
       skins: shown,
       curves: session.curves(run),
       loads: session.loads(run),
-      flow: session.flow(run),
       milliseconds: { bake: baked - begun, run: ended - baked },
     };
   },

@@ -12,7 +12,7 @@ use langevin_rigid_formats::export::{
 use langevin_rigid_formats::files;
 use langevin_rigid_formats::trajectory::{Trajectory, read_csv};
 use langevin_rigid_scenes::cast::Cast;
-use langevin_rigid_scenes::scene::{BUILT_IN, Scene};
+use langevin_rigid_scenes::scene::BUILT_IN;
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
@@ -62,12 +62,6 @@ pub fn built_in_scenes() -> Outcome<String> {
         text: scene.text,
     });
     json(&scenes.collect::<Vec<_>>())
-}
-
-/// The text of a scene with every choice spelled out.
-#[wasm_bindgen]
-pub fn spelled_out(name: &str, text: &str) -> Outcome<String> {
-    Ok(Scene::parse(name, name, text)?.to_toml()?)
 }
 
 /// Hands a file over, under a path that scenes name.
@@ -161,7 +155,6 @@ impl Session {
             curves.speed,
             curves.tilt,
             curves.spin,
-            curves.kinetic,
             curves.energy,
             curves.attachment,
         ];
@@ -171,11 +164,6 @@ impl Session {
     /// See [`session::Session::loads`].
     pub fn loads(&self, run: &Run) -> Vec<f32> {
         self.0.loads(&run.0)
-    }
-
-    /// See [`session::Session::flow`].
-    pub fn flow(&self, run: &Run) -> Vec<f32> {
-        self.0.flow(&run.0)
     }
 
     /// Pressures (Pa) at a frame, at the vertices of the skin; empty where there is no such frame.

@@ -1,7 +1,7 @@
 //! What a body did, as numbers over time, and the loads on it by cause.
 
 use langevin_rigid::linalg::rotate;
-use langevin_rigid::linalg::vector::{dot, norm, sub};
+use langevin_rigid::linalg::vector::{dot, norm};
 use langevin_rigid::{Input, Loads, State, falling_speed};
 use langevin_rigid_scenes::advance::input;
 use langevin_rigid_scenes::prepared::Release;
@@ -21,10 +21,8 @@ pub struct Curves {
     pub tilt: Vec<f32>,
     /// Turns a second.
     pub spin: Vec<f32>,
-    /// Kinetic energy of body and fluid, relative to the undisturbed fluid (J); NaN in a scene with water, into which bodies
-    /// dip.
-    pub kinetic: Vec<f32>,
-    /// The same with the potential energy above the lowest place of the run (J).
+    /// Kinetic energy of body and fluid, relative to the undisturbed fluid, and potential energy above the lowest place of the
+    /// run (J); NaN in a scene with water, into which bodies dip.
     pub energy: Vec<f32>,
     /// Attachment of the flow, 0 to 1; NaN in models without it, in a scene with water, and of a body that hardly moves.
     pub attachment: Vec<f32>,
@@ -76,7 +74,6 @@ impl Session {
             curves.speed.push(norm(state.velocity) as f32);
             curves.tilt.push(tilt as f32);
             curves.spin.push(turns as f32);
-            curves.kinetic.push(kinetic as f32);
             let potential = heavy * (height(state) - lowest);
             curves.energy.push((kinetic + potential) as f32);
             curves
@@ -107,16 +104,6 @@ impl Session {
             }
         }
         numbers
-    }
-
-    /// Velocity of the undisturbed fluid at the body at each frame, world frame (m/s).
-    pub fn flow(&self, run: &Run) -> Vec<f32> {
-        let stream = self.prepared().scene().fluid.velocity;
-        let at = |state: &State| {
-            let wind = self.input(state).flow.velocity;
-            sub(wind, stream.map(|x| -x)).map(|x| x as f32)
-        };
-        run.states().iter().flat_map(at).collect()
     }
 }
 
