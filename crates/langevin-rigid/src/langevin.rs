@@ -12,7 +12,7 @@
 
 use crate::elementary::{SMALL_EXPONENT, expm1, small_expm1};
 use crate::linalg::{Mat6, Vec6, dot, each, eigen_generalized, norm, product, split, transpose};
-use crate::modes::{Axes, Eigenmodes, Modes, mul_columns};
+use crate::modes::{Eigenmodes, Modes, mul_columns};
 use crate::real::Real;
 use crate::symmetry::{General, Symmetry, Tensor};
 use crate::turbulence::{Coefficients, PreparedSource};
@@ -69,19 +69,8 @@ impl Langevin {
             added: G::tensor(like, &self.added),
             kick: G::tensor(like, &self.kick),
             noise_power: like.of(self.noise_power),
-            modes: G::modes(like, self, total),
+            modes: G::modes(like, &self.modes, &self.added, total, &self.kick),
         }
-    }
-
-    /// The modes of a body whose tensors are diagonal.
-    pub(crate) fn axes<R: Real>(&self, like: R, total: &Mat6) -> Axes<R> {
-        let diagonal = |m: &Mat6| -> Vec6 { std::array::from_fn(|i| m[i][i]) };
-        Axes::new(
-            like,
-            &diagonal(&self.added),
-            &diagonal(total),
-            &diagonal(&self.kick),
-        )
     }
 }
 

@@ -7,7 +7,6 @@
 use std::fmt::Debug;
 
 use crate::body::{Body, Separation};
-use crate::langevin::Langevin;
 use crate::linalg::{Mat3, Mat6, Vec3, Vec6, each, lift, lift_matrix, mat_vec, mul};
 use crate::modes::{Axes, Eigenmodes, Modes};
 use crate::real::Real;
@@ -27,8 +26,14 @@ pub(crate) trait Symmetry: Debug + Clone {
     fn tensor<R: Real>(like: R, m: &Mat6) -> Self::Tensor<R>;
     /// `m` in the lanes of `like`.
     fn block<R: Real>(like: R, m: &Mat3) -> Self::Block<R>;
-    /// The modes of `langevin` in the lanes of `like`; `total` is the tensor T.
-    fn modes<R: Real>(like: R, langevin: &Langevin, total: &Mat6) -> Self::Modes<R>;
+    /// `modes` in the lanes of `like`, which are those of the tensors A, T and T^-1 A B.
+    fn modes<R: Real>(
+        like: R,
+        modes: &Eigenmodes,
+        added: &Mat6,
+        total: &Mat6,
+        kick: &Mat6,
+    ) -> Self::Modes<R>;
 }
 
 pub(crate) trait Tensor<R> {
@@ -59,8 +64,8 @@ impl Symmetry for General {
     fn block<R: Real>(like: R, m: &Mat3) -> Mat3<R> {
         lift_matrix(like, m)
     }
-    fn modes<R: Real>(like: R, langevin: &Langevin, _: &Mat6) -> Eigenmodes<R> {
-        langevin.modes.lift(like)
+    fn modes<R: Real>(like: R, modes: &Eigenmodes, _: &Mat6, _: &Mat6, _: &Mat6) -> Eigenmodes<R> {
+        modes.lift(like)
     }
 }
 
@@ -102,8 +107,9 @@ impl Symmetry for Symmetric {
     fn block<R: Real>(like: R, m: &Mat3) -> Diagonal<R, 3> {
         Diagonal::new(like, m)
     }
-    fn modes<R: Real>(like: R, langevin: &Langevin, total: &Mat6) -> Axes<R> {
-        langevin.axes(like, total)
+    fn modes<R: Real>(like: R, _: &Eigenmodes, added: &Mat6, total: &Mat6, kick: &Mat6) -> Axes<R> {
+        let diagonal = |m: &Mat6| -> Vec6 { std::array::from_fn(|i| m[i][i]) };
+        Axes::new(like, &diagonal(added), &diagonal(total), &diagonal(kick))
     }
 }
 
