@@ -170,12 +170,14 @@ pub(crate) enum Viewpoint {
 Examples:
   langevin-rigid ensemble paper-75 --runs 100
   langevin-rigid ensemble my-coin.toml --runs 150 --seed 7 --json
+  langevin-rigid ensemble my-coin.toml --runs 100000 --resume
 
-Each run has its own noise and its own release, scattered as the scene's [scatter] says; both depend
-on the seed and the number of the run alone. The walls and the floor are those of its [tank].
+Each run has its own noise, release, body and fluid, as the scene's [scatter] says; all depend on the
+seed and the number of the run alone. The walls and the floor are those of its [tank].
 
-Writes into DIR: landings.csv (one row per run; seconds, metres from the release point),
-statistics.json and scene.toml. Columns against time stop where fewer than half the drops are still
+Writes into DIR: landings.csv and landings.parquet (one row per run: what was drawn, seconds, metres
+from the release point), statistics.json and scene.toml. Falls are kept in falls.journal until all have
+ended, so that a run that was stopped or killed goes on with --resume, to the same bits. Columns against time stop where fewer than half the drops are still
 falling.")]
 pub(crate) struct Ensemble {
     /// A built-in scene (see `langevin-rigid scenes`) or a scene file.
@@ -191,6 +193,9 @@ pub(crate) struct Ensemble {
     pub(crate) seed: Option<u64>,
     #[arg(long, value_name = "NAME", help = models())]
     pub(crate) model: Option<Model>,
+    /// Go on with the runs that an ensemble in DIR has not finished.
+    #[arg(long)]
+    pub(crate) resume: bool,
     /// Print the statistics as JSON.
     #[arg(long)]
     pub(crate) json: bool,

@@ -11,8 +11,9 @@ use langevin_rigid_formats::budget::Need;
 use langevin_rigid_formats::files::{self, Claim};
 use langevin_rigid_scenes::baking::Baked;
 use langevin_rigid_scenes::ensemble::{
-    self, Faces, Fall, FallEnding, SAMPLES_PER_SECOND, Statistics, landings_csv,
+    self, Faces, Fall, FallEnding, Journal, SAMPLES_PER_SECOND, Statistics, landings,
 };
+use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene::{self, Scene};
 use serde::Serialize;
 
@@ -20,6 +21,12 @@ use crate::arguments::Ensemble;
 use crate::bars::Bars;
 use crate::simulate::resolved;
 use crate::{cache, forecast, say};
+
+/// Where falls are kept until all have ended.
+const JOURNAL: &str = "falls.journal";
+/// What the Parquet file says of itself.
+#[cfg(feature = "parquet")]
+const ABOUT: &str = "landings of an ensemble; SI units and degrees; x, z and depth from the release point of the scene";
 
 /// `statistics.json`; SI units.
 #[derive(Debug, Serialize)]
@@ -66,15 +73,24 @@ pub(crate) fn ensemble(options: &Ensemble, bars: &Bars) -> Result<()> {
     prepared.check_release()?;
     forecast(scene, prepared.body(), options.runs)?;
 
+    let path = folder.join(JOURNAL);
+    let journal = match options.resume {
+        true => Journal::open(&path, &prepared)?,
+        false => Journal::create(&path, &prepared)?,
+    };
     let started = Instant::now();
-    let falls = bars.stoppable(|| ensemble::run(&prepared, 0..options.runs, bars));
+    let runs = 0..options.runs;
+    let falls = bars.stoppable(|| ensemble::run_with(&prepared, runs, &journal, bars))?;
     let run = started.elapsed().as_secs_f64();
     bars.clear();
     if falls.is_empty() {
         bail!("no run came to an end");
     }
     let report = report(options, scene, baked, &falls, Seconds { bake, run });
-    write_all(&folder, scene, &falls, &report)?;
+    write_all(&folder, &prepared, &falls, &report)?;
+    if falls.len() == options.runs as usize {
+        journal.remove()?;
+    }
     tell(options, &folder, &report)?;
     if report.diverged == falls.len() {
         bail!(
@@ -106,7 +122,7 @@ fn report(
     if falls.len() < options.runs as usize {
         let (done, asked) = (falls.len(), options.runs);
         warnings.push(format!(
-            "interrupted: {done} of {asked} runs came to an end; slow ones are missing more often"
+            "interrupted: {done} of {asked} runs came to an end, slow ones are missing more often; go on with `--resume`"
         ));
     }
     let mut diverged = 0;
@@ -136,9 +152,15 @@ fn report(
     }
 }
 
-fn write_all(folder: &Path, scene: &Scene, falls: &[Fall], report: &Report) -> Result<()> {
-    files::write(&folder.join("landings.csv"), landings_csv(falls).as_bytes())?;
-    files::write(&folder.join("scene.toml"), resolved(scene)?.as_bytes())?;
+fn write_all(folder: &Path, prepared: &Prepared, falls: &[Fall], report: &Report) -> Result<()> {
+    let landings = landings(prepared, falls);
+    files::write(&folder.join("landings.csv"), landings.csv().as_bytes())?;
+    #[cfg(feature = "parquet")]
+    files::write_with(&folder.join("landings.parquet"), |out| {
+        landings.write_parquet(ABOUT, out)
+    })?;
+    let scene = resolved(prepared.scene())?;
+    files::write(&folder.join("scene.toml"), scene.as_bytes())?;
     let json = serde_json::to_string_pretty(report)? + "\n";
     files::write(&folder.join("statistics.json"), json.as_bytes())?;
     Ok(())
@@ -189,7 +211,7 @@ fn tell(options: &Ensemble, folder: &Path, report: &Report) -> Result<()> {
     }
     writeln!(
         out,
-        "  wrote landings.csv, statistics.json and scene.toml to {}",
+        "  wrote landings.csv, landings.parquet, statistics.json and scene.toml to {}",
         folder.display()
     )?;
     Ok(())

@@ -41,6 +41,7 @@
 //! - [`trajectory`]: where a body went, and the table of it as CSV, written and read.
 //! - [`track`]: where a body is between its recorded poses.
 //! - [`export`]: runs as CSV, NumPy, Parquet, glTF or USD.
+//! - [`table`](mod@table): tables of any columns, as CSV and Parquet.
 //! - [`visual`]: what a body looks like, from glTF to an exported GLB.
 //! - [`wind_table`]: velocities of a wind on a grid, from NumPy.
 //! - [`added_mass`]: the tensor for Gazebo, UUV Simulator, MuJoCo and Capytaine, as JSON, CSV or a table for people.
@@ -71,13 +72,14 @@
 //!
 //! Not by default:
 //!
-//! - `parquet` writes [`Format::Parquet`](export::Format::Parquet). Its library takes long to build.
+//! - `parquet` writes [`Format::Parquet`](export::Format::Parquet) and tables. Its library takes long to build.
 
 pub mod added_mass;
 pub mod budget;
 pub mod export;
 pub mod files;
 pub mod mesh;
+pub mod table;
 pub mod track;
 pub mod trajectory;
 pub mod visual;

@@ -2,7 +2,7 @@
 
 use langevin_rigid::Model;
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_scenes::ensemble::{self, SAMPLES_PER_SECOND, Statistics, landings_csv};
+use langevin_rigid_scenes::ensemble::{self, SAMPLES_PER_SECOND, Statistics, landings};
 use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene;
 
@@ -36,7 +36,7 @@ pub(crate) fn section(options: &Options, progress: &dyn Progress) -> Result<Sect
     ));
     section.row(&[depth_chart(&statistics), spread_chart(&statistics)]);
     table(&mut section, &statistics);
-    section.file("landings.csv", landings_csv(&falls));
+    section.file("landings.csv", landings(&prepared, &falls).csv());
     let json =
         serde_json::to_string_pretty(&statistics).map_err(|e| ReportError::Json(e.into()))?;
     section.file("statistics.json", json + "\n");

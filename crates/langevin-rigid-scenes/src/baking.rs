@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use langevin_rigid::{
-    Bake, Body, Fluid, Settings, SetupError, Stepper, TurbulenceHistory, TurbulenceSource,
-    falling_speed,
+    Bake, Body, Fluid, Settings, SetupError, Stepper, TurbulenceHistory, falling_speed,
 };
 use langevin_rigid_bake::added_mass::Warning;
 use langevin_rigid_bake::body::{BodyBakeError, bake_body, could_be};
@@ -79,10 +78,7 @@ pub fn mesh(scene: &Scene) -> Result<(TriMesh, Vec<String>), SceneBakeError> {
 
 /// Whether the scene's turbulence source samples a precomputed history.
 pub fn needs_history(scene: &Scene) -> bool {
-    match scene.settings.turbulence {
-        TurbulenceSource::History => true,
-        TurbulenceSource::BodyDriven { wake_age } => wake_age > 0.0,
-    }
+    scene.settings.turbulence.needs_history()
 }
 
 /// A bake, and whether it had been made before.

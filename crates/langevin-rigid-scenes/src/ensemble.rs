@@ -1,16 +1,20 @@
 //! Ensembles: many releases of one scene, and what they have in common.
 //!
 //! [`run`] drops the body again and again on all cores; each run has its own noise and its own
-//! release, scattered as [`crate::scene::Scatter`] says, and both depend on nothing but the scene's
-//! seed and the number of the run. [`Statistics::new`] and [`landings_csv`] sum up the [`Fall`]s.
+//! release, body and fluid, drawn as [`crate::scene::Scatter`] says, and all depend on nothing but the scene's
+//! seed and the number of the run. [`Statistics::new`] and [`landings()`] sum up the [`Fall`]s.
 
+mod draw;
 mod fall;
+mod journal;
+mod landings;
 mod lying;
 mod motion_class;
-mod scatter;
 mod side_by_side;
 mod statistics;
 
+use std::collections::BTreeSet;
+use std::convert::Infallible;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -18,19 +22,21 @@ use langevin_rigid_bake::progress::Progress;
 use rayon::prelude::*;
 
 use crate::prepared::Prepared;
+pub use draw::{Change, Draw, draw, scattered_release};
+pub(crate) use draw::{product, uniform};
 pub use fall::{Fall, FallEnding, SAMPLES_PER_SECOND};
+pub use journal::{Journal, JournalError};
+pub use landings::landings;
 pub use lying::Lying;
 pub(crate) use motion_class::thin_axis;
 pub use motion_class::{MotionClass, MotionTracker};
-pub(crate) use scatter::product;
-pub use scatter::scattered_release;
 pub use side_by_side::side_by_side;
-pub use statistics::{Faces, Statistics, landings_csv};
+pub use statistics::{Faces, Statistics};
 
 /// Drops the body of a scene once for each of `runs`, on all cores and in lanes.
 ///
-/// Run `i` has the noise of body `i` under the scene's seed and the release
-/// [`scattered_release`]. The falls come in the order of their runs, with the same bits on any
+/// Run `i` has the noise of body `i` under the scene's seed and begins as [`draw`] says. Runs of the same body and fluid
+/// fall in lanes. The falls come in the order of their runs, with the same bits on any
 /// number of threads and however the runs are shared among processes. Of work that `progress` cancels, the falls that are complete are given.
 ///
 /// The ground, and the floor of a tank, ends a fall when the body's lowest point touches it. In a
@@ -54,22 +60,75 @@ pub use statistics::{Faces, Statistics, landings_csv};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run(prepared: &Prepared, runs: Range<u32>, progress: &dyn Progress) -> Vec<Fall> {
-    let thin_axis = thin_axis(prepared.body());
-    let all = runs.len().max(1) as f64;
     let runs: Vec<u32> = runs.collect();
-    let together = (runs.len() / (4 * rayon::current_num_threads())).clamp(1, TOGETHER);
     let done = AtomicU32::new(0);
-    let falls: Vec<Vec<Fall>> = runs
+    // Nothing is kept, so nothing can fail.
+    let falls = run_some(
+        prepared,
+        &runs,
+        &done,
+        &|_| Ok::<_, Infallible>(()),
+        progress,
+    );
+    falls.unwrap_or_default()
+}
+
+/// The same, with each fall kept in `journal` as soon as those that fell with it have ended, and without the runs that are
+/// there already. The falls are those of [`run`], to the bit.
+///
+/// # Errors
+/// [`JournalError`] where it cannot be written.
+pub fn run_with(
+    prepared: &Prepared,
+    runs: Range<u32>,
+    journal: &Journal,
+    progress: &dyn Progress,
+) -> Result<Vec<Fall>, JournalError> {
+    let kept: BTreeSet<u32> = journal.kept().iter().map(|fall| fall.run).collect();
+    let missing: Vec<u32> = runs.clone().filter(|run| !kept.contains(run)).collect();
+    let done = AtomicU32::new((runs.len() - missing.len()) as u32);
+    let mut falls = run_some(
+        prepared,
+        &missing,
+        &done,
+        &|falls| journal.add(falls),
+        progress,
+    )?;
+    let wanted = journal
+        .kept()
+        .iter()
+        .filter(|fall| runs.contains(&fall.run));
+    falls.extend(wanted.cloned());
+    falls.sort_by_key(|fall| fall.run);
+    Ok(falls)
+}
+
+/// The falls of some runs; `done` of all are there already, and `keep` sees those that end together.
+fn run_some<E: Send>(
+    prepared: &Prepared,
+    runs: &[u32],
+    done: &AtomicU32,
+    keep: &(dyn Fn(&[Fall]) -> Result<(), E> + Sync),
+    progress: &dyn Progress,
+) -> Result<Vec<Fall>, E> {
+    let thin_axis = thin_axis(prepared.body());
+    let all = (runs.len() + done.load(Ordering::Relaxed) as usize).max(1) as f64;
+    let together = (runs.len() / (4 * rayon::current_num_threads())).clamp(1, TOGETHER);
+    let falls: Result<Vec<Vec<Fall>>, E> = runs
         .par_chunks(together)
         .map(|some| {
             let ended = || {
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.report("dropping", f64::from(done) / all);
             };
-            fall::falls(prepared, thin_axis, some, &|| progress.cancelled(), &ended)
+            let falls = fall::falls(prepared, thin_axis, some, &|| progress.cancelled(), &ended);
+            if !falls.is_empty() {
+                keep(&falls)?;
+            }
+            Ok(falls)
         })
         .collect();
-    falls.into_iter().flatten().collect()
+    Ok(falls?.into_iter().flatten().collect())
 }
 
 /// Runs that fall together at most: some packs of a batch, few enough that none waits long for the last of the others.

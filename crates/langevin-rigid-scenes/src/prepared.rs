@@ -8,13 +8,15 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::linalg::vector::{add, scale};
 use langevin_rigid::wind::Wind;
-use langevin_rigid::{Body, Ending, Hull, NoiseStream, SetupError, State, StepError, Stepper, run};
+use langevin_rigid::{
+    Body, BodyError, Ending, Fluid, Hull, NoiseStream, SetupError, State, StepError, Stepper, run,
+};
 use langevin_rigid_bake::progress::{Progress, Silent};
 use rayon::prelude::*;
 
 use crate::advance::advance;
 use crate::baking::{Baked, SceneBakeError, bake_scene, stepper};
-use crate::ensemble::side_by_side;
+use crate::ensemble::{Change, side_by_side};
 use crate::scene::{Scene, SceneWindError};
 use crate::together::{Surroundings, SurroundingsError};
 
@@ -50,6 +52,9 @@ pub enum PrepareError {
     /// It could not be baked.
     #[error(transparent)]
     Bake(#[from] SceneBakeError),
+    /// A body of that mass cannot be.
+    #[error(transparent)]
+    Body(#[from] BodyError),
     /// Body, fluid and settings do not go together.
     #[error(transparent)]
     Setup(#[from] SetupError),
@@ -198,6 +203,41 @@ impl Prepared {
             surroundings: surroundings.transpose()?.map(Arc::new),
             stepper: stepper(&scene, &baked.bake)?,
             wind: scene.make_wind()?,
+            hull: Hull::new(&baked.bake.body.surface.vertices),
+            scene,
+            baked,
+        })
+    }
+
+    /// The same with another size, mass or fluid. What does not depend on these is not made again; the bake's turbulence
+    /// history stays as it is.
+    ///
+    /// # Errors
+    /// [`PrepareError`], for a body that cannot be.
+    pub fn changed(&self, change: &Change) -> Result<Self, PrepareError> {
+        let mut scene = self.scene.clone();
+        // Others that would be let go with it.
+        scene.crowd = None;
+        scene.fluid = Fluid {
+            density: change.density.unwrap_or(scene.fluid.density),
+            viscosity: change.viscosity.unwrap_or(scene.fluid.viscosity),
+            velocity: change.wind.unwrap_or(scene.fluid.velocity),
+        };
+        let mut baked = Arc::clone(&self.baked);
+        if change.size.is_some() || change.mass.is_some() {
+            let mut body = baked.bake.body.scaled(change.size.unwrap_or(1.0));
+            if let Some(mass) = change.mass {
+                let inertia = body.inertia.map(|row| row.map(|x| x * (mass / body.mass)));
+                body = body.with_mass_properties(mass, [0.0; 3], inertia)?;
+            }
+            Arc::make_mut(&mut baked).bake.body = body;
+        }
+        let surroundings = self.surroundings.as_ref();
+        let surroundings = surroundings.map(|_| Surroundings::new(&scene, &baked, None, &()));
+        Ok(Self {
+            surroundings: surroundings.transpose()?.map(Arc::new),
+            stepper: stepper(&scene, &baked.bake)?,
+            wind: self.wind.clone(),
             hull: Hull::new(&baked.bake.body.surface.vertices),
             scene,
             baked,

@@ -10,11 +10,12 @@ mod direct;
 mod grid;
 mod materials;
 mod place;
-mod quantity;
+pub(crate) mod quantity;
 mod raw;
 mod registry;
 mod release;
 mod run;
+mod scatter;
 mod seed;
 mod separated;
 mod shape;
@@ -42,9 +43,10 @@ use langevin_rigid_formats::mesh::LengthUnit;
 use place::Document;
 pub use place::SceneError;
 use quantity::TIME_STEP;
-use raw::{RawFluid, RawPicture, RawRun, RawScatter, RawScene, RawTank, given};
+use raw::{RawFluid, RawPicture, RawRun, RawScene, RawTank, given};
 pub use registry::{BUILT_IN, BuiltIn, FindError, find};
 pub use run::StepsError;
+pub use scatter::{Scatter, Spread};
 use seed::Seed;
 pub use steering::Steering;
 pub use wind::{OWN, SceneField, SceneWindError, WindPart};
@@ -78,7 +80,7 @@ pub struct Scene {
     pub grid: Grid,
     /// Time between two drawings of the body in a picture (s); the picture's choice if none.
     pub picture_interval: Option<f64>,
-    /// How the releases of an ensemble differ from `release`.
+    /// How the runs of an ensemble differ from the scene.
     pub scatter: Scatter,
     /// Walls and floor around the release point, if any.
     pub tank: Option<Tank>,
@@ -98,17 +100,6 @@ pub struct Scene {
     pub steering: Option<Steering>,
     /// What its fall shall do, for [`crate::direct`].
     pub direct: Option<Direct>,
-}
-
-/// Standard deviations of the normal scatter of an ensemble's releases, one draw per run.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Scatter {
-    /// Tilt about each of the world's horizontal axes x and z (degrees).
-    pub tilt: f64,
-    /// Each component of the angular velocity, world frame (rad/s).
-    pub spin: f64,
-    /// Each component of the velocity, world frame (m/s).
-    pub velocity: f64,
 }
 
 /// Where the body's surface and mass come from.
@@ -222,6 +213,8 @@ impl Scene {
             return Err(doc.error(raw.run.span(), message));
         }
         let parts = wind::resolve(&doc, &raw.wind, stop.ground, fluid.velocity)?;
+        let scatter = scatter::resolve(&doc, &raw.scatter)?;
+        scatter::check_history(&doc, &raw.scatter, &scatter, &settings)?;
         let surroundings = direct::Surroundings {
             ground: stop.ground.is_some(),
             tank: tank.is_some(),
@@ -239,7 +232,7 @@ impl Scene {
             seed,
             grid: grid::resolve(&doc, &raw.turbulence)?,
             picture_interval: doc.given(&raw.picture.interval, "interval", TIME_STEP)?,
-            scatter: release::scatter(&doc, &raw.scatter)?,
+            scatter,
             carried: release::carried(&doc, &raw.release)?,
             // Last: it makes a mesh.
             body: body::resolve(&doc, &raw.body)?,
@@ -353,11 +346,7 @@ impl Scene {
             picture: RawPicture {
                 interval: self.picture_interval.and_then(given),
             },
-            scatter: RawScatter {
-                tilt: given(self.scatter.tilt),
-                spin: given(self.scatter.spin),
-                velocity: given(self.scatter.velocity),
-            },
+            scatter: scatter::write(&self.scatter),
             tank: self.tank.map(|tank| RawTank {
                 size: Spanned::new(0..0, tank.size.to_vec()),
             }),

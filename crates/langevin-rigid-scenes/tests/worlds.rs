@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use langevin_rigid::{Ending, State};
+use langevin_rigid_formats::table::Values;
 use langevin_rigid_scenes::ensemble::{self, FallEnding, Statistics};
 use langevin_rigid_scenes::prepared::{Fall, Prepared};
 use langevin_rigid_scenes::scene::{Scene, find};
@@ -149,8 +150,17 @@ fn coins_lie_in_their_glass_with_either_face_up() {
     let faces = Statistics::new(&falls).faces.unwrap();
     assert_eq!(faces.up + faces.down + faces.edge, 40);
     assert!(faces.up >= 8 && faces.down >= 8, "{faces:?}");
-    let table = ensemble::landings_csv(&falls);
-    assert!(table.starts_with("run,t,x,z,depth,ending,motion,turnovers,swings,lying_t,"));
+    let table = ensemble::landings(&coins, &falls);
+    let faces = table.columns().iter().find(|column| column.name == "face");
+    let Some(Values::Words(told)) = faces.map(|column| &column.values) else {
+        panic!("no faces: {table:?}");
+    };
+    let count = |face| told.iter().filter(|told| **told == face).count();
+    let faces = Statistics::new(&falls).faces.unwrap();
+    assert_eq!(
+        [count("up"), count("down"), count("edge")],
+        [faces.up, faces.down, faces.edge]
+    );
 }
 
 #[test]

@@ -179,6 +179,16 @@ pub enum TurbulenceSource {
     History,
 }
 
+impl TurbulenceSource {
+    /// Whether it samples a precomputed history, which is that of one body in one fluid.
+    pub fn needs_history(self) -> bool {
+        match self {
+            Self::History => true,
+            Self::BodyDriven { wake_age } => wake_age > 0.0,
+        }
+    }
+}
+
 impl Default for TurbulenceSource {
     fn default() -> Self {
         Self::BodyDriven { wake_age: 0.0 }

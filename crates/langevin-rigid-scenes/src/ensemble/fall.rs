@@ -1,12 +1,12 @@
 //! The falls of an ensemble.
 
-use langevin_rigid::linalg::Vec3;
+use langevin_rigid::linalg::{Vec3, rotate};
 use langevin_rigid::{NoiseStream, State};
 use serde::{Deserialize, Serialize};
 
+use super::draw::{Change, Draw, draw};
 use super::lying::{Lying, fall_in_world};
 use super::motion_class::MotionTracker;
-use super::scatter::scattered_release;
 use crate::lanes::{Lanes, Task, Watch};
 use crate::prepared::{Prepared, Release};
 use crate::scene::Scene;
@@ -49,18 +49,25 @@ impl FallEnding {
 pub struct Fall {
     /// Number of the run.
     pub run: u32,
+    /// What it began with.
+    pub draw: Draw,
     /// Why it ended.
     pub ending: FallEnding,
     /// Duration (s).
     pub time: f64,
     /// Where the centre of mass ended, from the scene's release point: x, depth (downwards), z (m).
     pub end: Vec3,
+    /// Velocity of the centre of mass then, world frame (m/s).
+    pub velocity: Vec3,
+    /// Angular velocity then, world frame (rad/s).
+    pub angular_velocity: Vec3,
+    /// The world's up in its thin axis then: 1 face up, -1 face down, 0 on its edge.
+    pub up: f64,
     /// Where the centre of mass was at 0, 1/60 s, 2/60 s, ..., in the coordinates of `end` (m).
     pub samples: Vec<Vec3>,
     /// How the body swung and turned over.
     pub motion: MotionTracker,
     /// How it came to rest, in a scene where it can.
-    #[serde(default)]
     pub lying: Option<Lying>,
 }
 
@@ -73,53 +80,119 @@ pub(super) fn falls(
     cancelled: &dyn Fn() -> bool,
     done: &dyn Fn(),
 ) -> Vec<Fall> {
-    if let Some(surroundings) = prepared.surroundings() {
-        let going = runs.iter().take_while(|_| !cancelled());
-        return going
-            .map(|run| {
-                let fall = fall_in_world(prepared, surroundings, thin_axis, *run);
-                done();
-                fall
-            })
-            .collect();
-    }
     let scene = prepared.scene();
-    let origin = scene.release.position;
-    let tasks = runs.iter().map(|&run| {
-        let release = Release {
-            state: scattered_release(scene, run),
-            noise: NoiseStream {
-                seed: scene.seed,
-                body: run,
-            },
-        };
-        Task {
-            release,
-            steering: None,
-            watch: Watched::new(scene, thin_axis, &release.state),
+    let draws = runs.iter().map(|&run| {
+        let draw = draw(scene, prepared.body().mass, run);
+        Drawn { run, draw }
+    });
+    let mut falls = Vec::with_capacity(runs.len());
+    for (change, alike) in alike(draws) {
+        if cancelled() {
+            break;
         }
-    });
-    let lanes = Lanes {
-        prepared,
-        apart: APART,
-    };
-    let falls = lanes.falls(tasks, cancelled, done).into_iter();
-    let falls = falls.map(|fall| Fall {
-        run: fall.release.noise.body,
-        ending: fall.ending,
-        time: fall.last.time,
-        end: relative(fall.last.position, origin),
-        samples: fall.watch.samples,
-        motion: fall.watch.motion,
-        lying: None,
-    });
-    falls.collect()
+        let changed = change.map(|change| prepared.changed(&change)).transpose();
+        let around = Around {
+            thin_axis,
+            cancelled,
+            done,
+        };
+        match changed {
+            Ok(changed) => falls.extend(around.alike(changed.as_ref().unwrap_or(prepared), &alike)),
+            Err(error) => falls.extend(alike.iter().map(|drawn| {
+                done();
+                drawn.without_a_fall(scene, thin_axis, &error.to_string())
+            })),
+        }
+    }
+    falls.sort_by_key(|fall| fall.run);
+    falls
+}
+
+/// A run and what it begins with.
+#[derive(Clone, Copy)]
+pub(super) struct Drawn {
+    pub(super) run: u32,
+    pub(super) draw: Draw,
+}
+
+/// Those of the same body and fluid together: they fall in lanes.
+fn alike(draws: impl Iterator<Item = Drawn>) -> Vec<(Option<Change>, Vec<Drawn>)> {
+    let mut groups: Vec<(Option<Change>, Vec<Drawn>)> = Vec::new();
+    for drawn in draws {
+        let change = drawn.draw.change;
+        match groups.iter_mut().find(|(of, _)| *of == change) {
+            Some((_, group)) => group.push(drawn),
+            None => groups.push((change, vec![drawn])),
+        }
+    }
+    groups
+}
+
+/// What falls of one body in one fluid share.
+struct Around<'a> {
+    thin_axis: Vec3,
+    cancelled: &'a dyn Fn() -> bool,
+    done: &'a dyn Fn(),
+}
+
+impl Around<'_> {
+    fn alike(&self, prepared: &Prepared, draws: &[Drawn]) -> Vec<Fall> {
+        if let Some(surroundings) = prepared.surroundings() {
+            let going = draws.iter().take_while(|_| !(self.cancelled)());
+            return going
+                .map(|drawn| {
+                    let fall = fall_in_world(prepared, surroundings, self.thin_axis, drawn);
+                    (self.done)();
+                    fall
+                })
+                .collect();
+        }
+        let scene = prepared.scene();
+        let tasks = draws.iter().map(|drawn| {
+            let release = Release {
+                state: drawn.draw.release,
+                noise: drawn.noise(scene),
+            };
+            Task {
+                release,
+                steering: None,
+                watch: Watched::new(scene, self.thin_axis, &release.state),
+            }
+        });
+        let lanes = Lanes {
+            prepared,
+            apart: APART,
+        };
+        let falls = lanes.falls(tasks, self.cancelled, self.done).into_iter();
+        let falls = falls.map(|fall| {
+            let drawn = &draws[fall.place];
+            fall.watch.ended(drawn, &fall.last, fall.ending)
+        });
+        falls.collect()
+    }
+}
+
+impl Drawn {
+    pub(super) fn noise(&self, scene: &Scene) -> NoiseStream {
+        NoiseStream {
+            seed: scene.seed,
+            body: self.run,
+        }
+    }
+
+    /// For a body that cannot be.
+    fn without_a_fall(&self, scene: &Scene, thin_axis: Vec3, why: &str) -> Fall {
+        let release = &self.draw.release;
+        let watch = Watched::new(scene, thin_axis, release);
+        watch.ended(self, release, FallEnding::Diverged(why.to_owned()))
+    }
 }
 
 /// What is kept of a fall under way.
 pub(super) struct Watched {
     pub(super) motion: MotionTracker,
     pub(super) samples: Vec<Vec3>,
+    thin_axis: Vec3,
     slack: f64,
     origin: Vec3,
 }
@@ -137,8 +210,26 @@ impl Watched {
         Self {
             motion: MotionTracker::new(thin_axis, release),
             samples: vec![relative(release.position, origin)],
+            thin_axis,
             slack: 1e-6 * scene.time_step,
             origin,
+        }
+    }
+
+    /// The fall, which ended in the state `last`.
+    pub(super) fn ended(self, drawn: &Drawn, last: &State, ending: FallEnding) -> Fall {
+        Fall {
+            run: drawn.run,
+            draw: drawn.draw,
+            ending,
+            time: last.time,
+            end: relative(last.position, self.origin),
+            velocity: last.world_velocity(),
+            angular_velocity: last.world_angular_velocity(),
+            up: rotate(last.orientation, self.thin_axis)[1],
+            samples: self.samples,
+            motion: self.motion,
+            lying: None,
         }
     }
 

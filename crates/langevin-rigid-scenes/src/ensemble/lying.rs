@@ -1,13 +1,12 @@
 //! The fall of a body that meets what stands in its way, until it lies still.
 
+use langevin_rigid::State;
 use langevin_rigid::linalg::{Vec3, rotate};
-use langevin_rigid::{NoiseStream, State};
 use serde::{Deserialize, Serialize};
 
-use super::fall::{APART, Fall, FallEnding, Watched, relative};
-use super::scatter::scattered_release;
+use super::fall::{APART, Drawn, Fall, FallEnding, Watched, relative};
 use crate::lanes::Watch;
-use crate::prepared::{Prepared, Release};
+use crate::prepared::Prepared;
 use crate::scene::MAX_STEPS;
 use crate::together::Surroundings;
 
@@ -30,18 +29,11 @@ pub(super) fn fall_in_world(
     prepared: &Prepared,
     surroundings: &Surroundings,
     thin_axis: Vec3,
-    run: u32,
+    drawn: &Drawn,
 ) -> Fall {
     let scene = prepared.scene();
-    let release = Release {
-        state: scattered_release(scene, run),
-        noise: NoiseStream {
-            seed: scene.seed,
-            body: run,
-        },
-    };
-    let mut watch = Watched::new(scene, thin_axis, &release.state);
-    let mut state = release.state;
+    let mut state = drawn.draw.release;
+    let mut watch = Watched::new(scene, thin_axis, &state);
     while state.time < scene.carried - 0.5 * scene.time_step {
         let before = state;
         state.carry(scene.time_step);
@@ -50,9 +42,9 @@ pub(super) fn fall_in_world(
     let kind = surroundings.own_kind();
     let slack = TOUCH * kind.shape().radius();
     let mut world = surroundings.world().clone();
-    let apart = APART * f64::from(run);
+    let apart = APART * f64::from(drawn.run);
     world.set_time(apart + state.time);
-    let body = world.add(kind, state, release.noise);
+    let body = world.add(kind, state, drawn.noise(scene));
     // By its own clock.
     let own = |world: &langevin_rigid_world::World| State {
         time: world.state(body).time - apart,
@@ -89,14 +81,8 @@ pub(super) fn fall_in_world(
         (Some(_), _) => FallEnding::Ground,
         (None, ending) => ending,
     };
-    let end = landed.unwrap_or(last);
     Fall {
-        run,
-        ending,
-        time: end.time,
-        end: relative(end.position, scene.release.position),
-        samples: watch.samples,
-        motion: watch.motion,
         lying,
+        ..watch.ended(drawn, &landed.unwrap_or(last), ending)
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use langevin_rigid::{Body, State};
 
-use super::scatter::scattered_release;
+use super::draw::scattered_release;
 use crate::scene::Scene;
 
 /// Radius of the disc that each body has to itself, in its largest extents: neighbours are then about two

@@ -2,13 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
-use std::fmt::Write;
 
 use langevin_rigid::linalg::Vec3;
 use serde::Serialize;
 
 use super::fall::{Fall, FallEnding, SAMPLES_PER_SECOND};
-use super::lying::Lying;
 use super::motion_class::MotionClass;
 
 /// Statistics of an ensemble's falls; falls that diverged are left out of all of them.
@@ -58,14 +56,24 @@ pub struct Faces {
     pub edge: usize,
 }
 
+/// The face that is up where the thin axis has this vertical component: `up`, `down`, or `edge` of a body that is steeper
+/// than 45 degrees.
+pub(super) fn face(up: f64) -> &'static str {
+    match up {
+        up if up > FRAC_1_SQRT_2 => "up",
+        up if up < -FRAC_1_SQRT_2 => "down",
+        _ => "edge",
+    }
+}
+
 impl Faces {
     fn of(falls: &[&Fall]) -> Option<Self> {
         let lying = falls.iter().filter_map(|fall| fall.lying);
         lying.fold(None, |faces, lying| {
             let mut faces: Self = faces.unwrap_or_default();
-            match lying.up {
-                up if up > FRAC_1_SQRT_2 => faces.up += 1,
-                up if up < -FRAC_1_SQRT_2 => faces.down += 1,
+            match face(lying.up) {
+                "up" => faces.up += 1,
+                "down" => faces.down += 1,
                 _ => faces.edge += 1,
             }
             Some(faces)
@@ -155,39 +163,4 @@ fn median(mut values: Vec<f64>) -> f64 {
         0 => 0.5 * (values[middle - 1] + values[middle]),
         _ => values[middle],
     }
-}
-
-/// The columns of the table of landings.
-const HEADER: &str = "run,t,x,z,depth,ending,motion,turnovers,swings";
-/// More of them where bodies come to rest.
-const LYING: &str = ",lying_t,lying_x,lying_z,lying_depth,up";
-
-/// A table of how each fall ended, in the order of the runs: seconds; metres from the scene's release
-/// point.
-///
-/// Where bodies come to rest it says when and where, and the world's up in the thin axis: 1 face up, -1 face down. These
-/// columns are empty for those that did not.
-pub fn landings_csv(falls: &[Fall]) -> String {
-    let lie = falls.iter().any(|fall| fall.lying.is_some());
-    let mut table = format!("{HEADER}{}\n", if lie { LYING } else { "" });
-    for fall in falls {
-        let Fall { run, time, .. } = fall;
-        let [x, depth, z] = fall.end;
-        let (ending, motion) = (fall.ending.name(), fall.motion.motion().name());
-        let (turnovers, swings) = (fall.motion.turnovers(), fall.motion.swings());
-        // Writing to a string cannot fail.
-        let _ = write!(
-            table,
-            "{run},{time},{x},{z},{depth},{ending},{motion},{turnovers},{swings}"
-        );
-        table.push_str(&match fall.lying {
-            Some(Lying { time, place, up }) => {
-                format!(",{time},{},{},{},{up}", place[0], place[2], place[1])
-            }
-            None if lie => ",,,,,".to_owned(),
-            None => String::new(),
-        });
-        table.push('\n');
-    }
-    table
 }

@@ -5,7 +5,7 @@ use langevin_rigid::{Bake, State};
 
 use super::*;
 use crate::baking;
-use crate::scene::Scene;
+use crate::scene::{Scene, Spread};
 
 /// A ball in water without turbulence: its motion is known, and every direction is alike.
 fn ball(extra: &str) -> Scene {
@@ -85,8 +85,8 @@ fn a_scatter_of_velocity_spreads_in_proportion_to_time() {
 #[test]
 fn releases_have_the_scatter_that_was_asked_for() {
     let mut scene = ball(DRIFT);
-    scene.scatter.tilt = 8.0;
-    scene.scatter.spin = 0.5;
+    scene.scatter.tilt = Some(Spread::About(8.0));
+    scene.scatter.spin = Some(Spread::About(0.5));
     let runs = 4000;
     let (mut tilt, mut spin, mut cross) = ([0.0; 2], [0.0; 3], 0.0);
     for run in 0..runs {
@@ -155,7 +155,8 @@ fn the_columns_stop_where_most_have_landed() {
         "run = { time_step = 0.002, model = \"kirchhoff\" }\ntank.size = [9.0, 0.3, 9.0]\n\
          scatter.velocity = 0.2",
     );
-    let falls = falls(&scene, 40);
+    let prepared = prepared(&scene);
+    let falls = run(&prepared, 0..40, &());
     let statistics = Statistics::new(&falls);
     let last = statistics.falling.last().copied().unwrap();
     let next = falls
@@ -175,10 +176,10 @@ fn the_columns_stop_where_most_have_landed() {
     let wanted = 0.5 * (distances[19] + distances[20]);
     let median = statistics.median_landing_distance.unwrap();
     assert!((median - wanted).abs() < 1e-6, "{median} {wanted}");
-    let table = landings_csv(&falls);
+    let table = landings(&prepared, &falls).csv();
     assert_eq!(table.lines().count(), 41);
     let columns = table.lines().map(|l| l.split(',').count());
-    assert!(columns.clone().all(|n| n == 9), "{table}");
+    assert!(columns.clone().all(|n| n == 37), "{table}");
 }
 
 /// The motion of a body whose normal leans by `angle(t)`, about an axis at `heading(t)`.
@@ -224,12 +225,13 @@ fn motions_are_told_apart() {
 
 #[test]
 fn a_fall_that_diverges_is_left_out_and_named() {
-    let mut falls = falls(&ball(DRIFT), 4);
+    let prepared = prepared(&ball(DRIFT));
+    let mut falls = run(&prepared, 0..4, &());
     let before = Statistics::new(&falls[..3]);
     falls[3].ending = FallEnding::Diverged("the state diverged".into());
     falls[3].samples.truncate(5);
     assert_eq!(Statistics::new(&falls), before);
-    assert!(landings_csv(&falls).contains("diverged"));
+    assert!(landings(&prepared, &falls).csv().contains("diverged"));
 }
 
 #[test]
@@ -270,6 +272,41 @@ fn mistakes_in_the_new_tables_have_their_place() {
         ("[scatter]\nspin = nan", (8, 8), "is NaN"),
         ("[scatter]\nvelocity = inf", (8, 12), "is inf"),
         ("[scatter]\ntilts = 1.0", (8, 1), "tilts"),
+        ("[scatter]\nmass = []", (8, 8), "a list of 1 to"),
+        ("[scatter]\nmass = [-1.0]", (8, 8), "between 0 and 1e30"),
+        (
+            "[scatter]\nwind = [1, 2]\nheight = \"high\"",
+            (9, 10),
+            "a standard deviation",
+        ),
+        ("[scatter]\nwind = [[1, 2]]", (8, 8), "numbers or [x, y, z]"),
+        (
+            "[scatter]\nsize = { uniform = [2, 1] }",
+            (8, 8),
+            "in this order",
+        ),
+        (
+            "[scatter]\nsize = { uniform = [2] }",
+            (8, 8),
+            "[least, most]",
+        ),
+        (
+            "[scatter]\nsize = { normal = [1, -1] }",
+            (8, 8),
+            "standard deviation",
+        ),
+        (
+            "[scatter]\nsize = { normal = [1, 1], uniform = [1, 2] }",
+            (8, 8),
+            "takes a standard",
+        ),
+        ("[scatter]\nfluid = [\"honey\"]", (8, 10), "honey"),
+        ("[scatter]\nfluid = []", (8, 9), "at least one"),
+        (
+            "[scatter]\nfluid_density = 1.0\nfluid = [\"air\"]",
+            (8, 17),
+            "not both",
+        ),
         ("[tank]\nsize = [0.3, 0.0, 0.3]", (8, 8), "one is 0"),
         (
             "[tank]\nsize = [0.3, 0.3]",
@@ -287,7 +324,9 @@ fn mistakes_in_the_new_tables_have_their_place() {
 #[test]
 fn scatter_and_tank_are_written_and_read_back() {
     let scene = ball(
-        "run = { time_step = 0.002, ground = -1.0 }\nscatter = { tilt = 8.1, spin = 0.3 }\n\
+        "run = { time_step = 0.002, ground = -1.0 }\n\
+         scatter = { tilt = 8.1, spin = 0.3, heading = [0, 90], size = { uniform = [0.5, 2] }, \
+         fluid = [\"air\"], mass = { normal = [1, 0.1] }, velocity = [[1, 2, 3], 0.5], height = [2] }\n\
          tank.size = [0.38, 0.33, 0.32]\nrelease.position = [0.0, 0.1, 0.0]",
     );
     assert_eq!(scene.stop.ground, Some(0.1 - 0.33));

@@ -7,7 +7,7 @@ use std::fmt::{self, Display, Formatter};
 /// The ranges are far wider than any use and far narrower than what numbers hold, so that no product on
 /// the way overflows.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Kind {
+pub(crate) struct Kind {
     unit: &'static str,
     pub(super) least: f64,
     pub(super) most: f64,
@@ -22,7 +22,7 @@ impl Kind {
         Self::new(unit, -most, most)
     }
 
-    pub(super) fn includes(&self, x: f64) -> bool {
+    pub(crate) fn includes(&self, x: f64) -> bool {
         (self.least..=self.most).contains(&x)
     }
 
@@ -68,12 +68,12 @@ pub(super) const SPEED: Kind = Kind::either_way("m/s", 1e6);
 pub(super) const SPIN: Kind = Kind::either_way("rad/s", 1e6);
 pub(super) const INFLOW: Kind = Kind::new("m/s", 1e-9, 1e6);
 pub(super) const GRAVITY: Kind = Kind::either_way("m/s^2", 1e6);
-pub(super) const DENSITY: Kind = Kind::new("kg/m^3", 1e-9, 1e9);
+pub(crate) const DENSITY: Kind = Kind::new("kg/m^3", 1e-9, 1e9);
 /// Of a body, which may be without mass.
 pub(super) const BODY_DENSITY: Kind = Kind::new("kg/m^3", 0.0, 1e9);
-pub(super) const VISCOSITY: Kind = Kind::new("kinematic, m^2/s", 1e-12, 1e12);
+pub(crate) const VISCOSITY: Kind = Kind::new("kinematic, m^2/s", 1e-12, 1e12);
 /// Of a body, which may be without.
-pub(super) const MASS: Kind = Kind::new("kg", 0.0, 1e30);
+pub(crate) const MASS: Kind = Kind::new("kg", 0.0, 1e30);
 pub(super) const BALLAST_MASS: Kind = Kind::new("kg", 1e-30, 1e30);
 pub(super) const INERTIA: Kind = Kind::either_way("kg m^2", 1e45);
 pub(super) const TIME_STEP: Kind = Kind::new("s", 1e-12, 1e3);
@@ -82,11 +82,15 @@ pub(super) const DELAY: Kind = Kind::new("s", 0.0, 1e6);
 pub(super) const FRACTION: Kind = Kind::new("", 0.0, 1.0);
 pub(super) const GAIN: Kind = Kind::new("", 0.0, 1e6);
 /// A ratio that other numbers are divided by.
-pub(super) const POSITIVE: Kind = Kind::new("", 1e-6, 1e6);
+pub(crate) const POSITIVE: Kind = Kind::new("", 1e-6, 1e6);
 /// Standard deviations of angle, angular velocity and velocity.
 pub(super) const ANGLE_SCATTER: Kind = Kind::new("standard deviation, degrees", 0.0, 1e6);
 pub(super) const SPIN_SCATTER: Kind = Kind::new("standard deviation, rad/s", 0.0, 1e6);
 pub(super) const SPEED_SCATTER: Kind = Kind::new("standard deviation, m/s", 0.0, 1e6);
+/// Those of a height, of a ratio and of a mass.
+pub(super) const HEIGHT_SCATTER: Kind = Kind::new("standard deviation, m", 0.0, 1e9);
+pub(super) const RATIO_SCATTER: Kind = Kind::new("standard deviation", 0.0, 1e6);
+pub(super) const MASS_SCATTER: Kind = Kind::new("standard deviation, kg", 0.0, 1e30);
 /// Of a fluctuating velocity.
 pub(super) const DEVIATION: Kind = Kind::new("m/s", 0.0, 1e6);
 /// Of a power law over the height.

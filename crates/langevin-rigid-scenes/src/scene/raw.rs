@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 use serde_spanned::Spanned;
+use toml::Value;
 
 use super::seed::Seed;
 
@@ -214,9 +215,17 @@ pub(super) struct RawPicture {
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct RawScatter {
-    pub(super) tilt: Given<f64>,
-    pub(super) spin: Given<f64>,
-    pub(super) velocity: Given<f64>,
+    pub(super) height: Given<Value>,
+    pub(super) tilt: Given<Value>,
+    pub(super) heading: Given<Value>,
+    pub(super) velocity: Given<Value>,
+    pub(super) spin: Given<Value>,
+    pub(super) size: Given<Value>,
+    pub(super) mass: Given<Value>,
+    pub(super) fluid: Given<Vec<Spanned<String>>>,
+    pub(super) fluid_density: Given<Value>,
+    pub(super) fluid_viscosity: Given<Value>,
+    pub(super) wind: Given<Value>,
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]

@@ -1,14 +1,11 @@
-//! Pose and velocities at release, and how those of an ensemble differ.
+//! Pose and velocities at release.
 
 use langevin_rigid::State;
 use langevin_rigid::linalg::quat_from_rotation_vector;
 
-use super::Scatter;
 use super::place::{Document, SceneError, length};
-use super::quantity::{
-    ANGLE, ANGLE_SCATTER, DELAY, DIRECTION, PLACE, SPEED, SPEED_SCATTER, SPIN, SPIN_SCATTER, UNIT,
-};
-use super::raw::{RawRelease, RawScatter, given};
+use super::quantity::{ANGLE, DELAY, DIRECTION, PLACE, SPEED, SPIN, UNIT};
+use super::raw::{RawRelease, given};
 
 /// The shortest vector that has a direction.
 const SHORTEST: f64 = 1e-6;
@@ -104,13 +101,4 @@ fn unit(q: [f64; 4]) -> [f64; 4] {
         true => q,
         false => q.map(|x| x / length),
     }
-}
-
-pub(super) fn scatter(doc: &Document, raw: &RawScatter) -> Result<Scatter, SceneError> {
-    let deviation = |value, key, kind| Ok(doc.given(value, key, kind)?.unwrap_or(0.0));
-    Ok(Scatter {
-        tilt: deviation(&raw.tilt, "tilt", ANGLE_SCATTER)?,
-        spin: deviation(&raw.spin, "spin", SPIN_SCATTER)?,
-        velocity: deviation(&raw.velocity, "velocity", SPEED_SCATTER)?,
-    })
 }

@@ -9,14 +9,8 @@ use super::raw::{Given, RawFluid, RawTank};
 
 pub(super) fn fluid(doc: &Document, raw: &Spanned<RawFluid>) -> Result<Fluid, SceneError> {
     let given = raw.get_ref();
-    let preset = given.preset.as_ref().map(|name| {
-        let choices = [("air", Fluid::AIR), ("water", Fluid::WATER)];
-        choose("preset fluid", name.get_ref(), choices).map_err(|unknown| {
-            let message = format!("{unknown}, or give `density` and `viscosity`");
-            doc.error(name.span(), message)
-        })
-    });
-    let preset = preset.transpose()?;
+    let preset = given.preset.as_ref().map(|name| preset(doc, name));
+    let preset = preset.transpose()?.map(|(_, fluid)| fluid);
     let quantity = |value: &Given<f64>, of_preset: Option<f64>, key: &str, kind: Kind| {
         doc.given(value, key, kind)?.or(of_preset).ok_or_else(|| {
             let what = kind.named(key);
@@ -29,6 +23,19 @@ pub(super) fn fluid(doc: &Document, raw: &Spanned<RawFluid>) -> Result<Fluid, Sc
         density: quantity(&given.density, density, "density", DENSITY)?,
         viscosity: quantity(&given.viscosity, viscosity, "viscosity", VISCOSITY)?,
         velocity: doc.vector(&given.velocity, "velocity", SPEED)?,
+    })
+}
+
+/// The fluid of a name, and the name.
+pub(super) fn preset(
+    doc: &Document,
+    name: &Spanned<String>,
+) -> Result<(&'static str, Fluid), SceneError> {
+    let presets = [("air", Fluid::AIR), ("water", Fluid::WATER)];
+    let choices = presets.map(|(name, fluid)| (name, (name, fluid)));
+    choose("preset fluid", name.get_ref(), choices).map_err(|unknown| {
+        let message = format!("{unknown}, or give `density` and `viscosity`");
+        doc.error(name.span(), message)
     })
 }
 

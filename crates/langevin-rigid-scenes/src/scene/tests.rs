@@ -85,7 +85,13 @@ const KEYS: &[(&str, &[(&str, &str)])] = &[
     ("picture", &[("interval", "0.1")]),
     (
         "scatter",
-        &[("tilt", "1.0"), ("spin", "2.0"), ("velocity", "0.1")],
+        &[
+            ("height", "0.1"),
+            ("tilt", "1.0"),
+            ("heading", "{ uniform = [0.0, 360.0] }"),
+            ("velocity", "0.1"),
+            ("spin", "2.0"),
+        ],
     ),
     ("tank", &[("size", "[1.0, 2.0, 3.0]")]),
     (
@@ -265,6 +271,23 @@ fn impossible_worlds_are_told() {
     );
     let sideways = leaf("[water]").replace("ground = 0.0", "gravity = [1.0, -9.81, 0.0]");
     assert!(parse(&sideways).unwrap_err().message.contains("along -y"));
+}
+
+#[test]
+fn a_history_of_turbulence_is_that_of_one_body_in_one_fluid() {
+    let scene = |source: &str| {
+        let text = format!(
+            "fluid.preset = \"water\"\nbody = {{ shape = \"disc\", radius = 0.01, thickness = 1e-3, mass = 1e-3 }}\n\
+             run = {{ time_step = 0.01, duration = 1.0, turbulence = {source:?} }}\n[scatter]\nsize = [1.0, 2.0]\n"
+        );
+        Scene::parse("disc", "disc.toml", &text)
+    };
+    assert!(scene("body-driven").is_ok());
+    for source in ["history", "wake-age=2"] {
+        let error = scene(source).unwrap_err();
+        assert_eq!((error.line, error.column), (5, 8));
+        assert!(error.message.contains("precomputed history"), "{error}");
+    }
 }
 
 #[test]

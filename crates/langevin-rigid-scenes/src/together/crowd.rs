@@ -1,12 +1,12 @@
 //! Where and when the bodies of a crowd are let go.
 
-use std::f64::consts::{SQRT_2, TAU};
+use std::f64::consts::TAU;
 
 use langevin_rigid::linalg::{Quat, Vec3};
 use langevin_rigid::{NoiseStream, State};
 
 use super::Release;
-use crate::ensemble::scattered_release;
+use crate::ensemble::{scattered_release, uniform};
 use crate::scene::{Crowd, Scene};
 
 /// A step that no run ever takes, beside that of the scatter: its normals are free.
@@ -55,11 +55,6 @@ fn release(scene: &Scene, crowd: &Crowd, number: u32) -> Release {
         scale: least + (most - least) * size,
         state,
     }
-}
-
-/// The share of normal numbers that are smaller.
-fn uniform(normal: f64) -> f64 {
-    0.5 * libm::erfc(-normal / SQRT_2)
 }
 
 /// Any as likely as any other (Shoemake 1992).
