@@ -11,14 +11,15 @@ use langevin_rigid::{
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
+use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use crate::arrays;
 use crate::errors::OrRaise;
 use crate::interrupt::repeated;
 use crate::state::{State, States};
 use crate::stepper::{Stepper, together};
 use crate::wind::Wind;
+use crate::{arrays, threads};
 
 /// Packs that a thread takes at once: 256 bodies.
 const PACKS: usize = 16;
@@ -114,6 +115,7 @@ impl Batch {
 
 /// One step of all packs: which bodies could not take it, and why.
 fn step_all(
+    pool: &ThreadPool,
     stepper: &RunTimeStepper,
     packs: &mut [Pack],
     dt: f64,
@@ -122,10 +124,12 @@ fn step_all(
     if packs.len() <= PACKS {
         return acting.step(stepper, packs, dt).err().into_iter().collect();
     }
-    let chunks = packs.par_chunks_mut(PACKS);
-    chunks
-        .filter_map(|packs| acting.step(stepper, packs, dt).err())
-        .collect()
+    pool.install(|| {
+        let chunks = packs.par_chunks_mut(PACKS);
+        chunks
+            .filter_map(|packs| acting.step(stepper, packs, dt).err())
+            .collect()
+    })
 }
 
 #[pymethods]
@@ -216,6 +220,7 @@ impl Batch {
             force: rows(force, "force")?,
             torque: rows(torque, "torque")?,
         };
+        let pool = threads::pool()?;
         let (batch, stepper) = (&mut self.batch, &*self.stepper);
         let mut stopped: BTreeMap<u32, Option<StepError>> = BTreeMap::new();
         let mut taken = 0;
@@ -223,7 +228,9 @@ impl Batch {
             if taken == n {
                 return Some(());
             }
-            for BatchError { bodies, first } in step_all(stepper, batch.packs_mut(), dt, &acting) {
+            for BatchError { bodies, first } in
+                step_all(&pool, stepper, batch.packs_mut(), dt, &acting)
+            {
                 let mut first = Some(first);
                 for body in bodies {
                     // Of each error the words are those of its first body.

@@ -39,8 +39,8 @@ impl Body {
         Ok(Self::of(Bake {
             body,
             history: None,
-            // Nothing was computed that could estimate it.
-            error_estimate: f64::NAN,
+            // Nothing was computed that could estimate it, and no bake has none.
+            error_estimate: 0.0,
             warnings: Vec::new(),
             fingerprint: [0; 32],
         }))
@@ -315,7 +315,7 @@ impl Body {
     /// Estimated relative error of the added mass; None for a body of simple form.
     #[getter]
     fn error_estimate(&self) -> Option<f64> {
-        Some(self.bake.error_estimate).filter(|error| !error.is_nan())
+        Some(self.bake.error_estimate).filter(|error| *error > 0.0)
     }
 
     /// What makes the bake doubtful, a sentence each.

@@ -7,6 +7,8 @@ use std::time::{Duration, Instant};
 use langevin_rigid_bake::progress::Progress;
 use pyo3::prelude::*;
 
+use crate::threads;
+
 /// How often signals are looked for.
 const OFTEN: Duration = Duration::from_millis(50);
 
@@ -28,13 +30,14 @@ pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Wanted) -> T + Send,
 ) -> PyResult<T> {
+    let pool = threads::pool()?;
     let wanted = Wanted::default();
     std::thread::scope(|scope| {
         let (sender, mut done) = channel::<()>();
         let wanted = &wanted;
         let worker = scope.spawn(move || {
             let _until_the_end = sender;
-            work(wanted)
+            pool.install(|| work(wanted))
         });
         let mut signal = Ok(());
         while signal.is_ok() {

@@ -24,6 +24,7 @@ mod repair;
 mod shapes;
 mod state;
 mod stepper;
+mod threads;
 mod turbulence;
 mod wind;
 

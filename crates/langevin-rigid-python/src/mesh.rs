@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::errors::{BakeError, MeshError, OrRaise};
-use crate::{arrays, files, shapes};
+use crate::{arrays, files, shapes, threads};
 
 /// Triangles over vertices, as they come: a closed body or something that is none yet.
 ///
@@ -68,14 +68,16 @@ impl Mesh {
 
     /// The body that the triangles enclose.
     pub(crate) fn body(&self, py: Python<'_>) -> PyResult<Arc<TriMesh>> {
-        self.found(py)
+        self.found(py)?
             .clone()
             .map_err(|fault| MeshError::new_err(format!("{}: {fault}", self.name)))
     }
 
-    fn found(&self, py: Python<'_>) -> &Result<Arc<TriMesh>, NoBody> {
+    fn found(&self, py: Python<'_>) -> PyResult<&Result<Arc<TriMesh>, NoBody>> {
+        let pool = threads::pool()?;
         let raw = &self.raw;
-        py.detach(|| self.body.get_or_init(|| raw.clone().body().map(Arc::new)))
+        let find = || pool.install(|| raw.clone().body().map(Arc::new));
+        Ok(py.detach(|| self.body.get_or_init(find)))
     }
 
     /// The mesh of an argument that may also be a path, in metres where its format has no unit.
@@ -136,13 +138,13 @@ impl Mesh {
     #[pyo3(signature = (path, *, unit = None))]
     fn read(py: Python<'_>, path: PathBuf, unit: Option<&str>) -> PyResult<Self> {
         let unit = unit.map(str::parse::<LengthUnit>).transpose().or_raise()?;
-        let raw = py.detach(|| match read_mesh(&path, unit) {
+        let raw = threads::shared(py, || match read_mesh(&path, unit) {
             Err(ReadError::Parse {
                 error: ParseError::NoUnit,
                 ..
             }) => read_mesh(&path, Some(LengthUnit::M)),
             read => read,
-        });
+        })?;
         Ok(Self::of_raw(raw.or_raise()?, files::name_of(&path)))
     }
 
@@ -181,9 +183,8 @@ impl Mesh {
         dimensions: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let dimensions = dimensions.map_or_else(|| Ok(PyDict::new(py)), PyDictMethods::copy)?;
-        let body = shapes::named(shape, &dimensions)?
-            .mesh(triangles)
-            .or_raise()?;
+        let named = shapes::named(shape, &dimensions)?;
+        let body = threads::shared(py, || named.mesh(triangles))?.or_raise()?;
         Ok(Self {
             recipe: Some(Recipe {
                 shape: shape.to_owned(),
@@ -226,14 +227,14 @@ impl Mesh {
 
     /// Whether it is a closed body that can be baked.
     #[getter]
-    fn is_body(&self, py: Python<'_>) -> bool {
-        self.found(py).is_ok()
+    fn is_body(&self, py: Python<'_>) -> PyResult<bool> {
+        Ok(self.found(py)?.is_ok())
     }
 
     /// Why it is no body, at first sight; None for a body.
     #[getter]
-    fn fault(&self, py: Python<'_>) -> Option<String> {
-        self.found(py).as_ref().err().map(ToString::to_string)
+    fn fault(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        Ok(self.found(py)?.as_ref().err().map(ToString::to_string))
     }
 
     /// Volume of the fluid displaced (m^3), that of sealed cavities included.
@@ -276,14 +277,14 @@ impl Mesh {
     /// The body made of this open sheet, `thickness` (m) thick, half to either side.
     fn sheet(&self, py: Python<'_>, thickness: f64) -> PyResult<Self> {
         let raw = self.raw.clone();
-        let body = py.detach(|| raw.sheet(thickness)).or_raise()?;
+        let body = threads::shared(py, || raw.sheet(thickness))?.or_raise()?;
         Ok(Self::of_body(body, self.name.clone()))
     }
 
     /// The body with about so many triangles and the same volume.
     fn simplified(&self, py: Python<'_>, triangles: usize) -> PyResult<Self> {
         let body = self.body(py)?;
-        let simplified = py.detach(|| body.proxy(triangles)).or_raise()?;
+        let simplified = threads::shared(py, || body.proxy(triangles))?.or_raise()?;
         Ok(Self::of_body(simplified, self.name.clone()))
     }
 
@@ -305,14 +306,16 @@ impl Mesh {
         written?;
         // STL rounds to single precision, which may make two vertices one.
         if format == Some(MeshFormat::Stl) {
-            let read = parse_mesh(&bytes, MeshFormat::Stl, Some(LengthUnit::M), None);
-            read.map_err(|error| error.to_string())
-                .and_then(|raw| raw.body().map_err(|error| error.to_string()))
-                .map_err(|error| {
-                    MeshError::new_err(format!(
-                        "written as STL, which rounds to single precision, it would be no body ({error}); write .obj (nothing was written)"
-                    ))
-                })?;
+            let again = || {
+                let raw = parse_mesh(&bytes, MeshFormat::Stl, Some(LengthUnit::M), None);
+                let raw = raw.map_err(|error| error.to_string())?;
+                raw.body().map_err(|error| error.to_string())
+            };
+            threads::shared(py, again)?.map_err(|error| {
+                MeshError::new_err(format!(
+                    "written as STL, which rounds to single precision, it would be no body ({error}); write .obj (nothing was written)"
+                ))
+            })?;
         }
         files::write(py, &path, &bytes)
     }

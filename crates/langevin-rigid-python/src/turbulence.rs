@@ -121,8 +121,8 @@ pub(crate) fn _history_of_parts(
     TurbulenceHistory::new(numbers.0, numbers.1, numbers.2, k, epsilon)
 }
 
-/// The turbulence at a body in a stream of `inflow_speed` (m/s), by the k-epsilon model on a grid of `cells` (x, y, z) of
-/// edge `cell` (m): Algorithm 1 of the paper.
+/// The turbulence at a body in a stream of `inflow_speed` (m/s), by the k-epsilon model on a grid of `cells` along
+/// x, y and z, (32, 32, 16) by default, of edge `cell` (m): Algorithm 1 of the paper.
 ///
 /// `time_step` (s) is by default that in which the stream crosses a cell, `duration` (s) that in which it crosses the grid.
 /// `drifting` reads at a passive particle that drifts along in place of the body.
@@ -132,17 +132,18 @@ pub(crate) fn _history_of_parts(
 /// (33, 0.98415)
 #[pyfunction]
 #[pyo3(signature = (
-    *, inflow_speed, cell, cells = FlowOptions::PAPER_CELLS, time_step = None, duration = None, drifting = false
+    *, inflow_speed, cell, cells = None, time_step = None, duration = None, drifting = false
 ))]
 pub(crate) fn turbulence(
     py: Python<'_>,
     inflow_speed: f64,
     cell: f64,
-    cells: [usize; 3],
+    cells: Option<[usize; 3]>,
     time_step: Option<f64>,
     duration: Option<f64>,
     drifting: bool,
 ) -> PyResult<TurbulenceHistory> {
+    let cells = cells.unwrap_or(FlowOptions::PAPER_CELLS);
     let usual = FlowOptions::new(cells, cell, inflow_speed);
     let options = FlowOptions {
         time_step: time_step.unwrap_or(usual.time_step),
