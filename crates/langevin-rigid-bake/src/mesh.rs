@@ -33,7 +33,7 @@ pub use repair::{
     repair,
 };
 pub use seams::{ClosedSeams, close_seams};
-pub use survey::{Component, Faults, Seams, Survey, survey};
+pub use survey::{Component, Faults, Finding, Seams, Survey, survey};
 pub use weld::weld;
 pub use wrap::{Leak, WrapError};
 

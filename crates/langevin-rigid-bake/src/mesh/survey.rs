@@ -1,5 +1,9 @@
 //! Everything there is to know of a mesh before it is a body, good or bad, in one go.
 
+mod findings;
+
+pub use findings::Finding;
+
 use super::boundary::{Hole, loops, open_sides};
 use super::edges::{Side, by_edge, sorted_sides};
 use super::intersect::meetings;

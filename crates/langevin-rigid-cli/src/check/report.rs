@@ -3,7 +3,7 @@
 mod table;
 
 use langevin_rigid_bake::added_mass::{AddedMassError, Expected, Options, Thinnest, expected};
-use langevin_rigid_bake::mesh::{Component, Faults, Hole, Survey};
+use langevin_rigid_bake::mesh::{Component, Faults, Finding, Hole, Survey};
 use langevin_rigid_formats::mesh::{FileUnit, LengthUnit};
 use serde::Serialize;
 
@@ -58,6 +58,9 @@ pub(super) struct Report {
     first_meeting: Option<[f64; 3]>,
     components: usize,
     largest_components: Vec<ComponentReport>,
+    /// For people; scripts have the counts.
+    #[serde(skip)]
+    findings: Vec<Finding>,
     /// Of the mesh if it is ready, else of what the repair makes of it.
     expected: Option<ExpectedReport>,
     pub(super) ready: bool,
@@ -76,6 +79,8 @@ struct HoleReport {
     edges: usize,
     perimeter: f64,
     centre: [f64; 3],
+    #[serde(skip)]
+    text: String,
 }
 
 #[derive(Serialize)]
@@ -164,6 +169,7 @@ impl Report {
                 .take(LISTED)
                 .map(ComponentReport::new)
                 .collect(),
+            findings: survey.findings(),
             ready: survey.body.is_ok() && !too_large,
             fault: fault(survey, &foretold),
             expected: foretold.and_then(Result::ok).map(ExpectedReport::new),
@@ -193,6 +199,7 @@ impl HoleReport {
             edges: hole.edges,
             perimeter: hole.perimeter,
             centre: hole.centre,
+            text: hole.to_string(),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use langevin_rigid_bake::added_mass::SMALL_THICKNESS;
 
-use super::{HoleReport, Report};
+use super::Report;
 
 impl Report {
     pub(in crate::check) fn table(&self) -> String {
@@ -57,80 +57,10 @@ impl Report {
     fn faults(&self, line: &mut impl FnMut(&str, String)) {
         line("holes", self.holes.to_string());
         for hole in &self.largest_holes {
-            let HoleReport {
-                edges,
-                perimeter,
-                centre,
-            } = hole;
-            line(
-                "",
-                format!("{edges} edges, {perimeter:.4e} m around {}", point(*centre)),
-            );
+            line("", hole.text.clone());
         }
-        let mut fault = |name: &str, count: usize, what: String| {
-            line(
-                name,
-                if count == 0 {
-                    "none".into()
-                } else {
-                    format!("{count} {what}")
-                },
-            );
-        };
-        let first = |at: Option<[f64; 3]>| at.map(|p| format!(", the first at {}", point(p)));
-        fault(
-            "unusable",
-            self.unusable,
-            "triangles, with coordinates or vertices that are none".into(),
-        );
-        fault(
-            "unused",
-            self.unused_vertices,
-            "vertices of no triangle".into(),
-        );
-        fault(
-            "degenerate",
-            self.degenerate,
-            "triangles without area".into(),
-        );
-        fault(
-            "duplicate",
-            self.duplicates,
-            "triangles that repeat another".into(),
-        );
-        let (distance, tolerance) = (self.unwelded_distance, self.weld_tolerance);
-        let seam = format!(
-            "vertices within {distance:.1e} m of another (looked within {tolerance:.1e} m)"
-        );
-        fault("unwelded", self.unwelded, seam);
-        fault(
-            "flipped",
-            self.flipped,
-            "triangles wind unlike their neighbours".into(),
-        );
-        let edge = first(self.first_non_manifold_edge).unwrap_or_default();
-        let vertex = first(self.first_non_manifold_vertex).unwrap_or_default();
-        fault(
-            "non-manifold",
-            self.non_manifold_edges,
-            format!("edges of more than two triangles{edge}"),
-        );
-        fault(
-            "pinched",
-            self.non_manifold_vertices,
-            format!("vertices where parts touch{vertex}"),
-        );
-        let meeting = first(self.first_meeting).unwrap_or_default();
-        fault(
-            "intersections",
-            self.meeting,
-            format!("triangles that meet others{meeting}"),
-        );
-        if self.inside_out {
-            line("inside out", "yes; that is mended on the way".into());
-        }
-        if self.one_sided {
-            line("one-sided", "yes, like a Möbius strip".into());
+        for finding in &self.findings {
+            line(finding.name, finding.words.clone());
         }
     }
 
