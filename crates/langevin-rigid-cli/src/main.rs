@@ -23,7 +23,6 @@ mod scenes;
 mod signals;
 mod simulate;
 mod size;
-mod summary;
 mod turbulence;
 mod view;
 

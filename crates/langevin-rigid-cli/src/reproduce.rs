@@ -8,10 +8,11 @@ use langevin_rigid_formats::budget::Need;
 use langevin_rigid_formats::files::Claim;
 use langevin_rigid_report::pages::{self, Computed};
 use langevin_rigid_report::{Options, PARTS, Part};
+use langevin_rigid_scenes::baking::cache_folder;
 
 use crate::arguments::Reproduce;
 use crate::bars::Bars;
-use crate::{cache, forecast, say};
+use crate::{forecast, say};
 
 /// Steps and memory of a seed in a part, at the least.
 const SEED: [f64; 2] = [500.0, 1e4];
@@ -23,7 +24,7 @@ pub(crate) fn reproduce(options: &Reproduce, bars: &Bars) -> Result<()> {
         parts: PARTS.iter().filter(wanted).copied().collect(),
         seeds: options.seeds,
         first_seed: options.seed,
-        cache: cache::folder(),
+        cache: cache_folder(),
     };
     check(options)?;
     if let Some(manual) = &options.update {

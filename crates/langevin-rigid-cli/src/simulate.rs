@@ -15,11 +15,11 @@ use langevin_rigid_scenes::baking::Baked;
 use langevin_rigid_scenes::cast::Cast;
 use langevin_rigid_scenes::prepared::{Fall, Prepared};
 use langevin_rigid_scenes::scene::{self, Scene};
+use langevin_rigid_scenes::summary::Summary;
 
 use crate::arguments::Simulate;
 use crate::bars::Bars;
 use crate::pictures::{self, Shot};
-use crate::summary::Summary;
 use crate::{cache, forecast, say};
 
 pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {

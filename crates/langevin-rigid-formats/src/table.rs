@@ -3,6 +3,7 @@
 #[cfg(feature = "parquet")]
 mod parquet;
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 #[cfg(feature = "parquet")]
 use std::io;
@@ -12,8 +13,8 @@ use std::io;
 /// ```
 /// use langevin_rigid_formats::table::{Column, Table, Values};
 /// let table = Table::new(vec![
-///     Column { name: "run", values: Values::Counts(vec![0, 1]) },
-///     Column { name: "t", values: Values::Optional(vec![Some(0.25), None]) },
+///     Column { name: "run".into(), values: Values::Counts(vec![0, 1]) },
+///     Column { name: "t".into(), values: Values::Optional(vec![Some(0.25), None]) },
 /// ]);
 /// assert_eq!(table.csv(), "run,t\n0,0.25\n1,\n");
 /// ```
@@ -26,7 +27,7 @@ pub struct Table {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
     /// Its name.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Its values, one a row.
     pub values: Values,
 }
@@ -44,7 +45,7 @@ pub enum Values {
     /// Whole numbers that may be large.
     Large(Vec<u64>),
     /// Words.
-    Words(Vec<&'static str>),
+    Words(Vec<Cow<'static, str>>),
 }
 
 impl Values {
@@ -71,8 +72,16 @@ impl Values {
             Self::Optional(values) => values[row].map_or(Ok(()), |x| write!(line, "{x}")),
             Self::Counts(values) => write!(line, "{}", values[row]),
             Self::Large(values) => write!(line, "{}", values[row]),
-            Self::Words(values) => write!(line, "{}", values[row]),
+            Self::Words(values) => write!(line, "{}", word(&values[row])),
         };
+    }
+}
+
+/// A word as CSV has it: in quotes where it has a comma, a quote or a line end.
+fn word(word: &str) -> Cow<'_, str> {
+    match word.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", word.replace('"', "\"\"")).into(),
+        false => word.into(),
     }
 }
 
@@ -108,10 +117,43 @@ impl Table {
         self.columns.first().map_or(0, |column| column.values.len())
     }
 
+    /// Adds the rows of another table.
+    ///
+    /// # Panics
+    /// If it has other columns.
+    pub fn append(&mut self, other: Self) {
+        if self.columns.is_empty() {
+            *self = other;
+            return;
+        }
+        let kinds = |table: &Self| -> Vec<_> {
+            let columns = table.columns.iter();
+            columns
+                .map(|c| (c.name.clone(), std::mem::discriminant(&c.values)))
+                .collect()
+        };
+        assert!(
+            kinds(self) == kinds(&other),
+            "the tables have other columns"
+        );
+        for (column, other) in self.columns.iter_mut().zip(other.columns) {
+            match (&mut column.values, other.values) {
+                (Values::Numbers(values), Values::Numbers(more)) => values.extend(more),
+                (Values::Optional(values), Values::Optional(more)) => values.extend(more),
+                (Values::Counts(values), Values::Counts(more)) => values.extend(more),
+                (Values::Large(values), Values::Large(more)) => values.extend(more),
+                (Values::Words(values), Values::Words(more)) => values.extend(more),
+                // Kinds were compared.
+                _ => {}
+            }
+        }
+    }
+
     /// Comma-separated values under the names. Numbers have as many digits as it takes to read back the same bits; a missing
     /// one is empty.
     pub fn csv(&self) -> String {
-        let names: Vec<&str> = self.columns.iter().map(|column| column.name).collect();
+        let names = self.columns.iter().map(|column| word(&column.name));
+        let names: Vec<Cow<'_, str>> = names.collect();
         let mut table = names.join(",") + "\n";
         for row in 0..self.rows() {
             for (number, column) in self.columns.iter().enumerate() {
@@ -145,4 +187,36 @@ pub(crate) fn write_parquet(
     out: impl io::Write + Send,
 ) -> io::Result<()> {
     parquet::write(tables, about, out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(name: &'static str, words: &[&'static str]) -> Table {
+        Table::new(vec![Column {
+            name: name.into(),
+            values: Values::Words(words.iter().map(|word| (*word).into()).collect()),
+        }])
+    }
+
+    #[test]
+    fn words_that_csv_would_split_are_quoted() {
+        let csv = table("a,b", &["plain", "say \"no\"", "two\nlines"]).csv();
+        assert_eq!(csv, "\"a,b\"\nplain\n\"say \"\"no\"\"\"\n\"two\nlines\"\n");
+    }
+
+    #[test]
+    fn tables_grow_by_each_other() {
+        let mut all = Table::default();
+        all.append(table("a", &["one"]));
+        all.append(table("a", &["two", "three"]));
+        assert_eq!(all, table("a", &["one", "two", "three"]));
+    }
+
+    #[test]
+    #[should_panic(expected = "other columns")]
+    fn tables_of_other_columns_do_not_mix() {
+        table("a", &["one"]).append(table("b", &["two"]));
+    }
 }

@@ -224,6 +224,17 @@ pub fn stepper(scene: &Scene, bake: &Bake) -> Result<Stepper, SetupError> {
     Stepper::new(&bake.body, &scene.fluid, history, &settings(scene))
 }
 
+/// The variable of the environment that names the folder where bakes are kept.
+pub const CACHE_VARIABLE: &str = "LANGEVIN_RIGID_CACHE";
+
+/// Where this computer keeps bakes: the folder that [`CACHE_VARIABLE`] names, or else that of the platform.
+pub fn cache_folder() -> Option<PathBuf> {
+    let named = std::env::var_os(CACHE_VARIABLE)
+        .filter(|name| !name.is_empty())
+        .map(PathBuf::from);
+    named.or_else(|| Some(dirs::cache_dir()?.join("langevin-rigid")))
+}
+
 fn cache_file(folder: &Path, fingerprint: &[u8; 32]) -> PathBuf {
     let name: String = fingerprint[..16]
         .iter()

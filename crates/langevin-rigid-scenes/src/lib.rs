@@ -52,6 +52,8 @@
 //! - [`look`](mod@look): how bodies look in exports; [`cast`]: all bodies of a run with their looks.
 //! - [`together`]: bodies that touch, float, and are many.
 //! - [`ensemble`]: many falls, what kind of motion each is, and their statistics.
+//! - [`sweep`]: ensembles of many scenes, in parts that any process can do.
+//! - [`summary`]: what a run comes to.
 //! - [`direct`]: releases whose fall does what is asked.
 //! - [`regimes`]: how discs and strips fall over Reynolds number and inertia, against experiments.
 //!
@@ -84,4 +86,6 @@ pub mod prepared;
 pub mod regimes;
 pub mod scene;
 mod stage;
+pub mod summary;
+pub mod sweep;
 pub mod together;

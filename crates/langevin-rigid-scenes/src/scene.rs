@@ -44,7 +44,7 @@ use place::Document;
 pub use place::SceneError;
 use quantity::TIME_STEP;
 use raw::{RawFluid, RawPicture, RawRun, RawScene, RawTank, given};
-pub use registry::{BUILT_IN, BuiltIn, FindError, find};
+pub use registry::{BUILT_IN, BuiltIn, FindError, Source, find};
 pub use run::StepsError;
 pub use scatter::{Scatter, Spread};
 use seed::Seed;

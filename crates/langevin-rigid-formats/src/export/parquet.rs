@@ -37,7 +37,10 @@ fn table(trajectory: &Trajectory) -> Table {
     let columns = CSV_HEADER.split(',').zip(values);
     Table::new(
         columns
-            .map(|(name, values)| Column { name, values })
+            .map(|(name, values)| Column {
+                name: name.into(),
+                values,
+            })
             .collect(),
     )
 }

@@ -41,7 +41,7 @@ fn write_file(
         .iter()
         .filter(|column| repeats(&column.values))
     {
-        let path = ColumnPath::from(column.name);
+        let path = ColumnPath::from(column.name.as_ref());
         properties = properties.set_column_dictionary_enabled(path, true);
     }
     let schema = schema(first)?;
@@ -84,7 +84,7 @@ fn column_type(column: &Column) -> Result<TypePtr> {
         Values::Optional(_) => Repetition::OPTIONAL,
         _ => Repetition::REQUIRED,
     };
-    let column = Type::primitive_type_builder(column.name, physical)
+    let column = Type::primitive_type_builder(&column.name, physical)
         .with_logical_type(logical)
         .with_repetition(repetition);
     Ok(Arc::new(column.build()?))
@@ -110,7 +110,10 @@ fn rows<W: Write + Send>(
             column::<Int64Type, W>(group, &values, None)
         }
         Values::Words(values) => {
-            let values: Vec<ByteArray> = values.iter().copied().map(ByteArray::from).collect();
+            let values: Vec<ByteArray> = values
+                .iter()
+                .map(|word| ByteArray::from(word.as_ref()))
+                .collect();
             column::<ByteArrayType, W>(group, &values, None)
         }
     }

@@ -76,10 +76,10 @@ pub fn landings(prepared: &Prepared, falls: &[Fall]) -> Table {
     let wind = |f: &Fall| change(f).wind.unwrap_or(fluid.velocity);
     columns.extend(of.vector(["wind_x", "wind_y", "wind_z"], wind));
     let up = |f: &Fall| f.lying.map_or(f.up, |lying| lying.up);
-    let lying = |name, value: fn(&Lying) -> f64| {
+    let lying = |name: &'static str, value: fn(&Lying) -> f64| {
         let values = falls.iter().map(|f| f.lying.as_ref().map(value));
         Column {
-            name,
+            name: name.into(),
             values: Values::Optional(values.collect()),
         }
     };
@@ -110,7 +110,7 @@ struct Of<'a>(&'a [Fall]);
 impl Of<'_> {
     fn numbers(&self, name: &'static str, value: impl Fn(&Fall) -> f64) -> Column {
         Column {
-            name,
+            name: name.into(),
             values: Values::Numbers(self.0.iter().map(value).collect()),
         }
     }
@@ -121,15 +121,15 @@ impl Of<'_> {
 
     fn counts(&self, name: &'static str, value: impl Fn(&Fall) -> u32) -> Column {
         Column {
-            name,
+            name: name.into(),
             values: Values::Counts(self.0.iter().map(value).collect()),
         }
     }
 
     fn words(&self, name: &'static str, value: impl Fn(&Fall) -> &'static str) -> Column {
         Column {
-            name,
-            values: Values::Words(self.0.iter().map(value).collect()),
+            name: name.into(),
+            values: Values::Words(self.0.iter().map(|fall| value(fall).into()).collect()),
         }
     }
 }

@@ -56,16 +56,22 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
 ];
 
 impl BuiltIn {
+    /// Its text as that of any scene.
+    pub fn source(&self) -> Source {
+        Source {
+            name: self.name.to_owned(),
+            file: format!("{}.toml (built in)", self.name),
+            text: self.text.to_owned(),
+            folder: None,
+        }
+    }
+
     /// The scene, read and checked.
     ///
     /// # Errors
     /// None, as a test makes sure of for each.
     pub fn scene(&self) -> Result<Scene, SceneError> {
-        Scene::parse(
-            self.name,
-            &format!("{}.toml (built in)", self.name),
-            self.text,
-        )
+        self.source().scene()
     }
 }
 
@@ -98,6 +104,65 @@ pub enum FindError {
     Scene(#[from] SceneError),
 }
 
+/// The text of a scene, and what it takes to read it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Source {
+    /// Name of the scene.
+    pub name: String,
+    /// Where messages say that it stands.
+    pub file: String,
+    /// Its TOML.
+    pub text: String,
+    /// The folder that the paths in it start from; the current one if none.
+    pub folder: Option<PathBuf>,
+}
+
+impl Source {
+    /// That of the built-in scene of a name, or else of the scene file at that path.
+    ///
+    /// # Errors
+    /// See [`FindError`].
+    pub fn find(name: &str) -> Result<Self, FindError> {
+        let path = Path::new(name);
+        let built_in = BUILT_IN.iter().map(|scene| (scene.name, scene));
+        match choose("built-in scene or file", name, built_in) {
+            Ok(scene) => return Ok(scene.source()),
+            Err(unknown) if !path.exists() => return Err(unknown.into()),
+            Err(_) => {}
+        }
+        let text = read(path).map_err(|error| FindError::Read {
+            file: name.to_owned(),
+            error,
+        })?;
+        if text.len() as u64 > LONGEST {
+            return Err(FindError::TooLong {
+                file: name.to_owned(),
+            });
+        }
+        let stem = path
+            .file_stem()
+            .map_or_else(|| name.into(), |s| s.to_string_lossy());
+        Ok(Self {
+            name: stem.into_owned(),
+            file: name.to_owned(),
+            text,
+            folder: path.parent().map(Path::to_owned),
+        })
+    }
+
+    /// The scene, read and checked. The paths in it become relative to the current folder.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        let mut scene = Scene::parse(&self.name, &self.file, &self.text)?;
+        if let Some(folder) = &self.folder {
+            let Ok(()) = scene.relocate(|path| Ok::<_, Infallible>(folder.join(path)));
+        }
+        Ok(scene)
+    }
+}
+
 /// Opens the built-in scene of that name, or else the scene file at that path.
 ///
 /// The paths in a file (meshes, looks, winds, other scenes) become relative to the current folder.
@@ -105,30 +170,7 @@ pub enum FindError {
 /// # Errors
 /// See [`FindError`].
 pub fn find(name: &str) -> Result<Scene, FindError> {
-    let path = Path::new(name);
-    let built_in = BUILT_IN.iter().map(|scene| (scene.name, scene));
-    match choose("built-in scene or file", name, built_in) {
-        Ok(scene) => return Ok(scene.scene()?),
-        Err(unknown) if !path.exists() => return Err(unknown.into()),
-        Err(_) => {}
-    }
-    let text = read(path).map_err(|error| FindError::Read {
-        file: name.to_owned(),
-        error,
-    })?;
-    if text.len() as u64 > LONGEST {
-        return Err(FindError::TooLong {
-            file: name.to_owned(),
-        });
-    }
-    let stem = path
-        .file_stem()
-        .map_or_else(|| name.into(), |s| s.to_string_lossy());
-    let mut scene = Scene::parse(&stem, name, &text)?;
-    if let Some(folder) = path.parent() {
-        let Ok(()) = scene.relocate(|path| Ok::<_, Infallible>(folder.join(path)));
-    }
-    Ok(scene)
+    Ok(Source::find(name)?.scene()?)
 }
 
 impl Scene {

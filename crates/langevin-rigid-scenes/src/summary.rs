@@ -4,72 +4,100 @@ use std::collections::BTreeMap;
 
 use langevin_rigid::{State, Stepper};
 use langevin_rigid_formats::export::{Deviation, Format, Written};
-use langevin_rigid_scenes::baking::Baked;
-use langevin_rigid_scenes::prepared::{Fall, Prepared};
-use langevin_rigid_scenes::scene::Scene;
 use serde::Serialize;
+
+use crate::baking::Baked;
+use crate::prepared::{Fall, Prepared};
+use crate::scene::Scene;
 
 /// `summary.json`; SI units. Of several bodies the numbers are the first one's, unless they say otherwise.
 #[derive(Debug, Serialize)]
-pub(crate) struct Summary {
-    pub(crate) scene: String,
-    pub(crate) version: &'static str,
-    pub(crate) seed: u64,
-    pub(crate) model: String,
-    pub(crate) integrator: String,
-    pub(crate) turbulence: String,
-    pub(crate) time_step: f64,
-    pub(crate) bodies: usize,
+pub struct Summary {
+    /// Name of the scene.
+    pub scene: String,
+    /// Version of the program.
+    pub version: &'static str,
+    /// Seed of the noise.
+    pub seed: u64,
+    /// Name of the model.
+    pub model: String,
+    /// Name of the integrator.
+    pub integrator: String,
+    /// Name of the source of turbulence.
+    pub turbulence: String,
+    /// Time step (s).
+    pub time_step: f64,
+    /// Number of bodies.
+    pub bodies: usize,
     /// How many bodies ended how.
-    pub(crate) endings: BTreeMap<&'static str, usize>,
-    pub(crate) steps: u64,
-    pub(crate) duration: f64,
+    pub endings: BTreeMap<&'static str, usize>,
+    /// Steps of the run.
+    pub steps: u64,
+    /// How long it took the body (s).
+    pub duration: f64,
     /// Why the run ended: ground, time, interrupted, memory or diverged.
-    pub(crate) ending: &'static str,
-    pub(crate) triangles: usize,
-    pub(crate) mass: f64,
-    pub(crate) volume: f64,
+    pub ending: &'static str,
+    /// Triangles of its surface.
+    pub triangles: usize,
+    /// Its mass (kg).
+    pub mass: f64,
+    /// Its volume (m^3).
+    pub volume: f64,
+    /// Falling speed U0, Eq. (1) (m/s).
     #[serde(rename = "U0")]
-    pub(crate) u0: f64,
+    pub u0: f64,
+    /// Reynolds number of the run.
     #[serde(rename = "Re")]
-    pub(crate) re: f64,
+    pub re: f64,
     /// Mean vertical speed over the last half of the run.
-    pub(crate) terminal_speed: f64,
-    pub(crate) energy: Energy,
-    pub(crate) added_mass_error_estimate: f64,
+    pub terminal_speed: f64,
+    /// Energy balance.
+    pub energy: Energy,
+    /// Relative error of the added mass, as estimated.
+    pub added_mass_error_estimate: f64,
     /// How far each animation strays from the trajectory.
-    pub(crate) deviation: BTreeMap<&'static str, Deviation>,
+    pub deviation: BTreeMap<&'static str, Deviation>,
     /// What was written besides this and the scene.
-    pub(crate) files: Vec<String>,
-    pub(crate) warnings: Vec<String>,
-    pub(crate) bake_cached: bool,
-    pub(crate) seconds: Seconds,
+    pub files: Vec<String>,
+    /// What is not as it should be.
+    pub warnings: Vec<String>,
+    /// Whether the bake had been made before.
+    pub bake_cached: bool,
+    /// Wall-clock time of each stage.
+    pub seconds: Seconds,
 }
 
 /// Energy balance of body and fluid, relative to the undisturbed fluid (J).
 #[derive(Debug, Serialize)]
-pub(crate) struct Energy {
-    pub(crate) kinetic_at_release: f64,
-    pub(crate) kinetic_at_end: f64,
+pub struct Energy {
+    /// Kinetic energy at release.
+    pub kinetic_at_release: f64,
+    /// Kinetic energy at the end.
+    pub kinetic_at_end: f64,
     /// Work of gravity less buoyancy.
-    pub(crate) weight_work: f64,
+    pub weight_work: f64,
     /// What the fluid took, net of what its turbulence and the wind gave.
-    pub(crate) dissipated: f64,
+    pub dissipated: f64,
 }
 
 /// Wall-clock time of each stage.
 #[derive(Debug, Default, Serialize)]
-pub(crate) struct Seconds {
-    pub(crate) bake: f64,
-    pub(crate) run: f64,
-    pub(crate) per_step: f64,
-    pub(crate) write: f64,
-    pub(crate) picture: f64,
+pub struct Seconds {
+    /// Bake, or reading it (s).
+    pub bake: f64,
+    /// Run (s).
+    pub run: f64,
+    /// Run, for each step of a body (s).
+    pub per_step: f64,
+    /// Writing of tables and animations (s).
+    pub write: f64,
+    /// Picture (s).
+    pub picture: f64,
 }
 
 impl Summary {
     /// Of a run, which has one body or more.
-    pub(crate) fn new(prepared: &Prepared, falls: &[Fall]) -> Self {
+    pub fn new(prepared: &Prepared, falls: &[Fall]) -> Self {
         let (scene, baked) = (prepared.scene(), prepared.baked());
         let (body, stepper) = (prepared.body(), prepared.stepper());
         let states = &falls[0].states;
@@ -111,7 +139,7 @@ impl Summary {
     }
 
     /// Notes the files of a format and how good they are.
-    pub(crate) fn wrote(&mut self, format: Format, written: Written) {
+    pub fn wrote(&mut self, format: Format, written: Written) {
         self.files.extend(written.files);
         // Of two animations of one run the same is to be said.
         let new = |warning: &String| !self.warnings.contains(warning);
