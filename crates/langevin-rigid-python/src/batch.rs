@@ -168,7 +168,7 @@ impl Batch {
         let mut batch = Self {
             batch,
             stepper: Arc::clone(&stepper.stepper),
-            stream: stepper.stream,
+            stream: stepper.fluid.velocity,
             seed,
         };
         let all: Vec<usize> = (0..count).collect();

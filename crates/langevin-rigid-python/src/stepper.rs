@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use langevin_rigid::wind::Wind as RunTimeWind;
 use langevin_rigid::{
-    Flow as RunTimeFlow, Input, Integrator, Model, NoiseStream, SeparatedFlow, Settings,
-    State as RunTimeState, Stepper as RunTimeStepper, TurbulenceSource, Wrench as RunTimeWrench,
+    Bake, Flow as RunTimeFlow, Fluid as RunTimeFluid, Input, Integrator, Model, NoiseStream,
+    SeparatedFlow, Settings, State as RunTimeState, Stepper as RunTimeStepper,
+    TurbulenceHistory as History, TurbulenceSource, Wrench as RunTimeWrench,
 };
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::body::{Body, take_numbers};
 use crate::errors::OrRaise;
@@ -42,9 +43,11 @@ use crate::{arrays, loads::Loads};
 #[pyclass(frozen, module = "langevin_rigid")]
 pub(crate) struct Stepper {
     pub(crate) stepper: Arc<RunTimeStepper>,
-    /// The stream of its fluid (m/s).
-    pub(crate) stream: [f64; 3],
+    pub(crate) fluid: RunTimeFluid,
+    body: Arc<Bake>,
     settings: Settings,
+    /// Where it is not that of the body.
+    history: Option<History>,
 }
 
 #[pymethods]
@@ -88,14 +91,15 @@ impl Stepper {
             reynolds,
             longest_part,
         };
-        let history = history
-            .map(|history| &history.0)
-            .or(body.bake.history.as_ref());
-        let stepper = RunTimeStepper::new(body.body(), &fluid.0, history, &settings);
+        let history = history.map(|history| &history.0);
+        let sampled = history.or(body.bake.history.as_ref());
+        let stepper = RunTimeStepper::new(body.body(), &fluid.0, sampled, &settings);
         Ok(Self {
             stepper: Arc::new(stepper.or_raise()?),
-            stream: fluid.0.velocity,
+            fluid: fluid.0,
+            body: Arc::clone(&body.bake),
             settings,
+            history: history.cloned(),
         })
     }
 
@@ -229,6 +233,20 @@ impl Stepper {
         arrays::of_rows(py, self.stepper.total_mass())
     }
 
+    /// The body.
+    #[getter]
+    fn body(&self) -> Body {
+        Body {
+            bake: Arc::clone(&self.body),
+        }
+    }
+
+    /// The fluid.
+    #[getter]
+    fn fluid(&self) -> Fluid {
+        Fluid(self.fluid)
+    }
+
     /// Reynolds number of the run.
     #[getter]
     fn reynolds(&self) -> f64 {
@@ -256,6 +274,32 @@ impl Stepper {
             self.stepper.reynolds()
         )
     }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, stepper) = (slf.py(), slf.get());
+        let settings = &stepper.settings;
+        let separated = PyDict::new(py);
+        for (name, value) in named(&mut settings.separated.clone()) {
+            separated.set_item(name, *value)?;
+        }
+        let keywords = PyDict::new(py);
+        keywords.set_item("model", settings.model.name())?;
+        keywords.set_item("integrator", settings.integrator.to_string())?;
+        keywords.set_item("turbulence", settings.turbulence.to_string())?;
+        keywords.set_item("history", stepper.history.clone().map(TurbulenceHistory))?;
+        keywords.set_item("gravity", settings.gravity)?;
+        keywords.set_item("turbulence_length", settings.turbulence_length)?;
+        keywords.set_item("release_speed", settings.release_speed)?;
+        keywords.set_item("reynolds", settings.reynolds)?;
+        keywords.set_item("longest_part", settings.longest_part)?;
+        keywords.set_item("separated", separated)?;
+        keywords.set_item("attached", settings.separated.attached)?;
+        let partial = py.import("functools")?.getattr("partial")?;
+        let made = partial.call((slf.get_type(),), Some(&keywords))?;
+        Ok((made, (stepper.body(), stepper.fluid()).into_pyobject(py)?))
+    }
 }
 
 /// The constants of separated flow, with some by name.
@@ -265,21 +309,25 @@ fn constants(given: Option<&Bound<'_, PyDict>>, attached: bool) -> PyResult<Sepa
         ..SeparatedFlow::default()
     };
     if let Some(given) = given {
-        let mut numbers = [
-            ("attachment", &mut c.attachment),
-            ("broadside_attachment", &mut c.broadside_attachment),
-            ("normal_force_arm", &mut c.normal_force_arm),
-            ("dynamic_stall", &mut c.dynamic_stall),
-            ("rotational_lift", &mut c.rotational_lift),
-            ("damping", &mut c.damping),
-            ("rotational_damping", &mut c.rotational_damping),
-            ("relief_speed", &mut c.relief_speed),
-            ("turbulence_intensity", &mut c.turbulence_intensity),
-            ("turbulence_memory", &mut c.turbulence_memory),
-        ];
-        take_numbers(given, "the model `separated`", &mut numbers)?;
+        take_numbers(given, "the model `separated`", &mut named(&mut c))?;
     }
     Ok(c)
+}
+
+/// Those that are numbers, by name.
+fn named(c: &mut SeparatedFlow) -> [(&'static str, &mut f64); 10] {
+    [
+        ("attachment", &mut c.attachment),
+        ("broadside_attachment", &mut c.broadside_attachment),
+        ("normal_force_arm", &mut c.normal_force_arm),
+        ("dynamic_stall", &mut c.dynamic_stall),
+        ("rotational_lift", &mut c.rotational_lift),
+        ("damping", &mut c.damping),
+        ("rotational_damping", &mut c.rotational_damping),
+        ("relief_speed", &mut c.relief_speed),
+        ("turbulence_intensity", &mut c.turbulence_intensity),
+        ("turbulence_memory", &mut c.turbulence_memory),
+    ]
 }
 
 /// What acts on a body over steps.
@@ -308,7 +356,7 @@ impl Acting {
         };
         Ok(Self {
             wind: wind.map(|wind| Arc::clone(&wind.wind)),
-            stream: stepper.stream,
+            stream: stepper.fluid.velocity,
             input: Input {
                 flow,
                 wrench: RunTimeWrench {

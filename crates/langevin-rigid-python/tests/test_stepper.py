@@ -196,3 +196,24 @@ def test_a_step_that_cannot_be_taken_leaves_the_state(leaf):
         stepper.steps(state, 0.1, 1000)
     assert raised.value.bodies == []
     assert np.isfinite(state.position).all() and state.step < 1000
+
+
+def test_pickles_keep_steppers(leaf):
+    history = lr.turbulence(inflow_speed=0.81, cell=0.01)
+    stepper = lr.Stepper(
+        leaf,
+        lr.Fluid.air(velocity=[0.1, 0, 0]),
+        turbulence="wake-age=16",
+        history=history,
+        gravity=[0, -1.6, 0],
+        separated={"attachment": 0.5},
+    )
+    again = pickle.loads(pickle.dumps(stepper))
+    assert repr(again) == repr(stepper)
+    assert again.body == leaf and again.fluid == stepper.fluid
+    ends = []
+    for each in (stepper, again, lr.Stepper(leaf, lr.Fluid.air())):
+        state = lr.State(position=[0, 2, 0], orientation=[0.3, 0, 0, 1])
+        each.steps(state, 0.01, 50, seed=2)
+        ends.append(state)
+    assert ends[0] == ends[1] != ends[2]

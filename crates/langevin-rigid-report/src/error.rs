@@ -1,6 +1,6 @@
 //! Why there is no report.
 
-use langevin_rigid::SetupError;
+use langevin_rigid::{BodyError, SetupError};
 use langevin_rigid_bake::turbulence::TurbulenceError;
 use langevin_rigid_formats::files::WriteError;
 use langevin_rigid_pictures::PictureError;
@@ -37,6 +37,9 @@ pub enum ReportError {
     /// Numbers could not be written as JSON.
     #[error(transparent)]
     Json(std::io::Error),
+    /// A body cannot be.
+    #[error(transparent)]
+    Body(#[from] BodyError),
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -49,6 +52,7 @@ impl From<PrepareError> for ReportError {
     fn from(error: PrepareError) -> Self {
         match error {
             PrepareError::Bake(error) => Self::Bake(error),
+            PrepareError::Body(error) => Self::Body(error),
             PrepareError::Setup(error) => Self::Setup(error),
             PrepareError::Wind(error) => Self::Wind(error),
             PrepareError::Surroundings(error) => Self::Surroundings(error),
