@@ -46,7 +46,7 @@ impl Body {
         }))
     }
 
-    fn of(bake: Bake) -> Self {
+    pub(crate) fn of(bake: Bake) -> Self {
         Self {
             bake: Arc::new(bake),
         }

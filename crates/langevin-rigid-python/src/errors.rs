@@ -12,11 +12,16 @@ use langevin_rigid_bake::shapes::ShapeError;
 use langevin_rigid_bake::turbulence::TurbulenceError;
 use langevin_rigid_formats::files::WriteError;
 use langevin_rigid_formats::mesh::ReadError;
+use langevin_rigid_scenes::baking::SceneBakeError;
+use langevin_rigid_scenes::ensemble::JournalError;
+use langevin_rigid_scenes::prepared::PrepareError;
+use langevin_rigid_scenes::scene::FindError;
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyPermissionError, PyValueError};
 use pyo3::prelude::*;
 
 pyo3::import_exception!(langevin_rigid.errors, MeshError);
 pyo3::import_exception!(langevin_rigid.errors, BakeError);
+pyo3::import_exception!(langevin_rigid.errors, SceneError);
 pyo3::import_exception!(langevin_rigid.errors, SetupError);
 pyo3::import_exception!(langevin_rigid.errors, StepError);
 
@@ -59,6 +64,8 @@ raised! {
     BodyBakeError => BakeError,
     BakeFileError => BakeError,
     TurbulenceError => BakeError,
+    langevin_rigid_scenes::scene::SceneError => SceneError,
+    langevin_rigid_scenes::direct::DirectError => SceneError,
     langevin_rigid::UnknownName => PyValueError,
 }
 
@@ -91,5 +98,47 @@ pub(crate) fn of_system(kind: ErrorKind, words: String) -> PyErr {
         ErrorKind::NotFound => PyFileNotFoundError::new_err(words),
         ErrorKind::PermissionDenied => PyPermissionError::new_err(words),
         _ => PyOSError::new_err(words),
+    }
+}
+
+impl Raised for FindError {
+    fn raised(self) -> PyErr {
+        let words = self.to_string();
+        match self {
+            FindError::Read { error, .. } => of_system(error.kind(), words),
+            _ => SceneError::new_err(words),
+        }
+    }
+}
+
+impl Raised for SceneBakeError {
+    fn raised(self) -> PyErr {
+        match self {
+            SceneBakeError::Read(error) => error.raised(),
+            SceneBakeError::Mesh { .. } | SceneBakeError::Shape(_) => {
+                MeshError::new_err(self.to_string())
+            }
+            _ => BakeError::new_err(self.to_string()),
+        }
+    }
+}
+
+impl Raised for PrepareError {
+    fn raised(self) -> PyErr {
+        match self {
+            PrepareError::Bake(error) => error.raised(),
+            PrepareError::Setup(_) | PrepareError::Body(_) => SetupError::new_err(self.to_string()),
+            _ => SceneError::new_err(self.to_string()),
+        }
+    }
+}
+
+impl Raised for JournalError {
+    fn raised(self) -> PyErr {
+        let words = self.to_string();
+        match self {
+            JournalError::Io { error, .. } => of_system(error.kind(), words),
+            _ => SceneError::new_err(words),
+        }
     }
 }

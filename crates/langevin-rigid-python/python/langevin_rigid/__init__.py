@@ -3,6 +3,9 @@
 A mesh is checked (`check`), mended (`repair`), and has an added mass (`added_mass`). A `Body`, of simple form or baked from a
 mesh, moves in a `Fluid`: a `Stepper` advances its `State`, or that of many bodies in a `Batch`, in a `Wind` or not.
 
+A `Scene` says all of it: `simulate` drops its body, `ensemble` drops it again and again, `sweep` does so for many scenes, on as
+many machines as there are.
+
 SI units, radians. The world is right-handed with +Y up; the body frame has its origin at the centre of mass and the axes of
 the mesh. Six-vectors and 6x6 matrices have their linear part first, quaternions are x, y, z, w. Arrays that come out are
 C-contiguous and belong to the caller. Long calls let other threads run, and Ctrl-C ends them.
@@ -19,21 +22,27 @@ from ._native import (
     Batch,
     Body,
     Check,
+    Ensemble,
     Flow,
     Fluid,
     Loads,
     Mesh,
     Repaired,
+    Run,
+    Scene,
     State,
     States,
     Stepper,
+    Table,
     TurbulenceHistory,
     Wind,
     Wrench,
     __version__,
     added_mass,
     check,
+    ensemble,
     repair,
+    simulate,
     turbulence,
 )
 from .errors import (
@@ -44,6 +53,8 @@ from .errors import (
     SetupError,
     StepError,
 )
+from .scatter import normal, uniform
+from .sweep import DataSet, Sweep, sweep
 
 __all__ = [
     "AddedMass",
@@ -51,6 +62,8 @@ __all__ = [
     "Batch",
     "Body",
     "Check",
+    "DataSet",
+    "Ensemble",
     "Flow",
     "Fluid",
     "LangevinRigidError",
@@ -58,18 +71,27 @@ __all__ = [
     "Mesh",
     "MeshError",
     "Repaired",
+    "Run",
+    "Scene",
     "SceneError",
     "SetupError",
     "State",
     "States",
     "StepError",
     "Stepper",
+    "Sweep",
+    "Table",
     "TurbulenceHistory",
     "Wind",
     "Wrench",
     "__version__",
     "added_mass",
     "check",
+    "ensemble",
+    "normal",
     "repair",
+    "simulate",
+    "sweep",
     "turbulence",
+    "uniform",
 ]
