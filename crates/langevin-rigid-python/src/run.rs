@@ -155,9 +155,9 @@ impl Run {
 ///
 /// >>> run = simulate("paper-75", seed=1)
 /// >>> run.endings
-/// ['time']
-/// >>> bool(run.states.positions[-1, 1] < -1.0)
-/// True
+/// ['ground']
+/// >>> run.states.positions.shape[1]
+/// 3
 #[pyfunction]
 #[pyo3(signature = (
     scene, *, seed = None, duration = None, dt = None, model = None, turbulence = None, bodies = 1,

@@ -72,7 +72,7 @@ impl Scene {
     /// From the text of a scene file. Paths in it start from the current folder.
     #[staticmethod]
     #[pyo3(signature = (text, *, name = "scene"))]
-    fn parse(text: String, name: &str) -> PyResult<Self> {
+    pub(crate) fn parse(text: String, name: &str) -> PyResult<Self> {
         Self::of_source(Source {
             name: name.to_owned(),
             file: format!("{name}.toml"),

@@ -54,9 +54,9 @@ def test_everything_public_is_documented():
 
 def test_stubs_are_those_of_the_package():
     pytest.importorskip("mypy")
-    done = subprocess.run(
-        [sys.executable, "-m", "mypy.stubtest", "langevin_rigid"], capture_output=True, text=True, check=False
-    )
+    settings = Path(__file__).parents[1] / "pyproject.toml"
+    command = [sys.executable, "-m", "mypy.stubtest", "--mypy-config-file", settings, "langevin_rigid"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
 
 

@@ -1,5 +1,5 @@
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, Protocol, final, overload
 
 import numpy as np
@@ -10,14 +10,20 @@ __all__ = [
     "Batch",
     "Body",
     "Check",
+    "Directed",
+    "Ensemble",
     "Flow",
     "Fluid",
     "Loads",
     "Mesh",
+    "Regimes",
     "Repaired",
+    "Run",
+    "Scene",
     "State",
     "States",
     "Stepper",
+    "Table",
     "TurbulenceHistory",
     "Wind",
     "Wrench",
@@ -27,10 +33,16 @@ __all__ = [
     "_history_of_parts",
     "_mesh_of_parts",
     "_mesh_of_shape",
+    "_scene_of_parts",
     "_state_of_parts",
+    "_sweep_part",
     "added_mass",
     "check",
+    "direct",
+    "ensemble",
+    "regimes",
     "repair",
+    "simulate",
     "turbulence",
 ]
 
@@ -649,3 +661,129 @@ def _state_of_parts(
 def _history_of_parts(
     numbers: tuple[float, float, float], k: ArrayLike, epsilon: ArrayLike
 ) -> TurbulenceHistory: ...
+
+_SceneLike = Scene | _Path | dict[str, Any]
+_Cache = bool | _Path
+_Scatter = dict[str, Any]
+
+@final
+class Scene:
+    @staticmethod
+    def find(name: _Path) -> Scene: ...
+    @staticmethod
+    def parse(text: str, *, name: str = "scene") -> Scene: ...
+    @staticmethod
+    def of(scene: dict[str, Any], *, name: str = "scene") -> Scene: ...
+    @staticmethod
+    def built_in() -> list[str]: ...
+    def changed(self, changes: dict[str, Any]) -> Scene: ...
+    def to_toml(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def seed(self) -> int: ...
+    @property
+    def time_step(self) -> float: ...
+    def bake(self, *, cache: _Cache = ...) -> Body: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
+@final
+class Run:
+    @property
+    def states(self) -> States: ...
+    @property
+    def bodies(self) -> list[States]: ...
+    @property
+    def endings(self) -> list[str]: ...
+    @property
+    def body(self) -> Body: ...
+    @property
+    def summary(self) -> dict[str, Any]: ...
+    def to_pandas(self) -> Any: ...
+    def save(self, folder: _Path, *, formats: Sequence[str] = ..., fps: float = 60.0) -> list[str]: ...
+    def __len__(self) -> int: ...
+
+@final
+class Ensemble:
+    @property
+    def landings(self) -> Table: ...
+    @property
+    def statistics(self) -> dict[str, Any]: ...
+    def path(self, index: int) -> _Array: ...
+    def to_pandas(self) -> Any: ...
+    def __len__(self) -> int: ...
+
+@final
+class Table:
+    def keys(self) -> list[str]: ...
+    def __getitem__(self, name: str, /) -> NDArray[Any]: ...
+    def __contains__(self, name: str, /) -> bool: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
+    def to_pandas(self) -> Any: ...
+    def to_csv(self, path: _Path) -> None: ...
+    def to_parquet(self, path: _Path) -> None: ...
+
+def simulate(
+    scene: _SceneLike,
+    *,
+    seed: int | None = None,
+    duration: float | None = None,
+    dt: float | None = None,
+    model: _Model | None = None,
+    turbulence: str | None = None,
+    bodies: int = 1,
+    cache: _Cache = ...,
+) -> Run: ...
+def ensemble(
+    scene: _SceneLike,
+    runs: int,
+    *,
+    scatter: _Scatter | None = None,
+    seed: int | None = None,
+    model: _Model | None = None,
+    first: int = 0,
+    journal: _Path | None = None,
+    cache: _Cache = ...,
+) -> Ensemble: ...
+def _scene_of_parts(name: str, file: str, text: str, folder: _Path) -> Scene: ...
+def _sweep_part(
+    pieces: Sequence[tuple[int, _SceneLike, Mapping[str, Any], int, int]], path: _Path, cache: _Cache
+) -> None: ...
+
+@final
+class Regimes:
+    @property
+    def points(self) -> Table: ...
+    @property
+    def agreement(self) -> dict[str, Any]: ...
+    def picture(self, path: _Path) -> None: ...
+    def __len__(self) -> int: ...
+
+@final
+class Directed:
+    @property
+    def score(self) -> float: ...
+    @property
+    def misses(self) -> list[tuple[str, float]]: ...
+    @property
+    def release(self) -> State: ...
+    @property
+    def end(self) -> State: ...
+    @property
+    def scene(self) -> Scene: ...
+
+def regimes(grid: tuple[int, int] = (10, 6)) -> Regimes: ...
+def direct(
+    scene: _SceneLike,
+    *,
+    falls: int | None = None,
+    best: int | None = None,
+    seed: int | None = None,
+    cache: _Cache = ...,
+) -> list[Directed]: ...
