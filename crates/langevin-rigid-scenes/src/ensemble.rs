@@ -113,7 +113,12 @@ fn run_some<E: Send>(
 ) -> Result<Vec<Fall>, E> {
     let thin_axis = thin_axis(prepared.body());
     let all = (runs.len() + done.load(Ordering::Relaxed) as usize).max(1) as f64;
-    let together = (runs.len() / (4 * rayon::current_num_threads())).clamp(1, TOGETHER);
+    // Several shares for each thread, so that none waits long for the last of another.
+    let shares = match rayon::current_num_threads() {
+        1 => 1,
+        threads => 4 * threads,
+    };
+    let together = (runs.len() / shares).clamp(1, TOGETHER);
     let falls: Result<Vec<Vec<Fall>>, E> = runs
         .par_chunks(together)
         .map(|some| {

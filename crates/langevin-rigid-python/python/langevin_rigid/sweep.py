@@ -14,13 +14,10 @@ import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ._native import Scene, __version__, _sweep_part
 from .errors import SceneError
-
-if TYPE_CHECKING:
-    import pandas
 
 __all__ = ["DataSet", "Sweep", "sweep"]
 
@@ -182,7 +179,7 @@ class DataSet:
         if not isinstance(found, dict) or found.get("fingerprint") != wanted["fingerprint"]:
             raise SceneError(f"`{self.folder}` is of another sweep, or of another version: choose an empty folder")
 
-    def to_pandas(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
+    def to_pandas(self, columns: Sequence[str] | None = None) -> Any:
         """All partitions as one pandas.DataFrame. Needs pandas and pyarrow."""
         import pandas
 
@@ -230,8 +227,7 @@ def sweep(
     else:
         from dask.distributed import Client, LocalCluster
 
-        count = workers or len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else workers or os.cpu_count()
-        with LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None) as cluster:
+        with LocalCluster(n_workers=workers or _cores(), threads_per_worker=1, dashboard_address=None) as cluster:
             with Client(cluster) as here:
                 _distribute(data, missing, here, cache)
     return data
@@ -284,6 +280,14 @@ def _scene(given: Any) -> Scene:
             return Scene.of(dict(given))
         case _:
             return Scene.find(given)
+
+
+def _cores() -> int:
+    """Cores that this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:
+        return os.cpu_count() or 1
 
 
 def _positive(name: str, number: int) -> int:

@@ -1,6 +1,5 @@
 //! How each run of an ensemble began and ended, as a table.
 
-use langevin_rigid::State;
 use langevin_rigid::linalg::Vec3;
 use langevin_rigid::linalg::vector::norm;
 use langevin_rigid_formats::table::{Column, Table, Values};
@@ -50,19 +49,10 @@ pub fn landings(prepared: &Prepared, falls: &[Fall]) -> Table {
     {
         columns.push(of.numbers(name, |f| f.draw.release.orientation[i]));
     }
-    let velocities: [(_, fn(&State) -> Vec3); 2] = [
-        (
-            ["release_vx", "release_vy", "release_vz"],
-            State::world_velocity,
-        ),
-        (
-            ["release_wx", "release_wy", "release_wz"],
-            State::world_angular_velocity,
-        ),
-    ];
-    for (names, velocity) in velocities {
-        columns.extend(of.vector(names, |f| velocity(&f.draw.release)));
-    }
+    let velocity = |f: &Fall| f.draw.release.world_velocity();
+    columns.extend(of.vector(["release_vx", "release_vy", "release_vz"], velocity));
+    let spin = |f: &Fall| f.draw.release.world_angular_velocity();
+    columns.extend(of.vector(["release_wx", "release_wy", "release_wz"], spin));
     columns.extend([
         of.numbers("size", |f| change(f).size.unwrap_or(1.0)),
         of.numbers("mass", drawn_mass),
