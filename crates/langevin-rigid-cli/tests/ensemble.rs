@@ -6,9 +6,8 @@
 //! leaks into them; if tables differ between numbers of threads, a draw depends on scheduling.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use std::process::Output;
+use std::process::{Command, Output};
 
-use assert_cmd::Command;
 use serde_json::Value;
 
 /// A place of its own for results and bakes.
@@ -30,16 +29,19 @@ impl Place {
         file.display().to_string()
     }
 
-    fn run(&self, threads: &str, arguments: &[&str]) -> Output {
-        Command::cargo_bin("langevin-rigid")
-            .unwrap()
+    fn command(&self, threads: &str, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_langevin-rigid"));
+        command
             .current_dir(self.0.path())
             .env("LANGEVIN_RIGID_CACHE", self.0.path().join("cache"))
             .env("RAYON_NUM_THREADS", threads)
             .arg("ensemble")
-            .args(arguments)
-            .output()
-            .unwrap()
+            .args(arguments);
+        command
+    }
+
+    fn run(&self, threads: &str, arguments: &[&str]) -> Output {
+        self.command(threads, arguments).output().unwrap()
     }
 
     fn json(&self, arguments: &[&str]) -> Value {
@@ -159,6 +161,61 @@ fn seeds_decide_and_threads_do_not() {
         one.starts_with(&landings("2", "5", "4")),
         "more runs add runs"
     );
+}
+
+#[test]
+fn an_ensemble_that_was_killed_goes_on_to_the_same_bits() {
+    let place = Place::new();
+    let scene = place.scene("duration = 2.0", "[scatter]\nvelocity = 0.1\nheight = 0.1");
+    let runs = ["--runs", "3000"];
+    let whole = place.run(
+        "2",
+        &[&[scene.as_str()], &runs[..], &["--out", "whole"]].concat(),
+    );
+    assert!(whole.status.success());
+
+    let journal = place.0.path().join("o/falls.journal");
+    let mut killed = place
+        .command(
+            "2",
+            &[&[scene.as_str()], &runs[..], &["--out", "o"]].concat(),
+        )
+        .spawn()
+        .unwrap();
+    // As soon as some falls are kept.
+    while std::fs::metadata(&journal).map_or(0, |m| m.len()) < 200_000 {
+        assert!(
+            killed.try_wait().unwrap().is_none(),
+            "it ended before it was killed"
+        );
+        std::thread::yield_now();
+    }
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert!(!place.0.path().join("o/landings.csv").exists());
+
+    // What is there is not written over, nor taken for another's.
+    let again = [&[scene.as_str()], &runs[..], &["--out", "o"]].concat();
+    let refused = place.run("2", &again);
+    let complaint = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(complaint.contains("go on with `--resume`"), "{complaint}");
+    let other = place.run("2", &[&again[..], &["--resume", "--seed", "9"]].concat());
+    let complaint = String::from_utf8(other.stderr).unwrap();
+    assert!(
+        complaint.contains("another scene, seed or version"),
+        "{complaint}"
+    );
+
+    let resumed = place.run("2", &[&again[..], &["--resume"]].concat());
+    assert!(resumed.status.success());
+    assert_eq!(
+        place.read("o/landings.csv"),
+        place.read("whole/landings.csv")
+    );
+    assert!(!journal.exists());
+    let bytes = std::fs::read(place.0.path().join("o/landings.parquet")).unwrap();
+    assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
 }
 
 #[test]
