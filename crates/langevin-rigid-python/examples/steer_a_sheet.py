@@ -3,8 +3,8 @@
     pip install . "gymnasium>=1.2,<2"
     python examples/steer_a_sheet.py
 
-The sheet flutters and glides where it will; the force that may act on it is a tenth of its weight at most. Lets random actions
-and a proportional controller have the same 20 releases, and says how far from the target the sheets come down.
+The sheet flutters and glides where it will; the force that may act on it is a tenth of its weight at most. Random
+actions and a proportional controller have the same 20 releases; it says how far from the target the sheets land.
 """
 
 import gymnasium

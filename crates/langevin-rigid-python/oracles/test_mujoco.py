@@ -1,8 +1,8 @@
 """Free motion and Munk's moment against MuJoCo.
 
-In vacuum a free body is one of MuJoCo's own problems. In fluid MuJoCo applies Kirchhoff's terms of the velocities with a
-diagonal added mass, `geom_fluid[6:12]`, per unit density of the fluid; it does not apply those of the accelerations, so that
-there only the loads can be compared, not the motion.
+In vacuum a free body is one of MuJoCo's own problems. In fluid MuJoCo applies Kirchhoff's terms of the velocities with
+a diagonal added mass, `geom_fluid[6:12]`, per unit density of the fluid; it does not apply those of the accelerations,
+so that there only the loads can be compared, not the motion.
 """
 
 import mujoco

@@ -1,4 +1,4 @@
-"""Motion and turbulence against SciPy: its integrators, its matrix exponential and its solver of Lyapunov's equation."""
+"""Motion and turbulence against SciPy: its integrators, matrix exponential and solver of Lyapunov's equation."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
