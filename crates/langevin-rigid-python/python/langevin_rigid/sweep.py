@@ -65,10 +65,10 @@ class Sweep:
         if twice:
             raise SceneError(f"the column `{twice[0]}` would come twice: rename or leave out a parameter")
         # A mistake shows here and not on some worker: every value is tried once, and the last of all together.
-        for scene in range(len(self.scenes)):
+        for scene in self.scenes:
             for name, values in axes.items():
                 for value in values:
-                    self.scenes[scene].changed({name: value})
+                    scene.changed({name: value})
         self.scene(self.points - 1)
 
     @property
@@ -121,10 +121,11 @@ class Sweep:
         last = min(first + self.partition, self.total)
         for point in range(first // self.runs, -(-last // self.runs)):
             start = point * self.runs
+            scene = self.scene(point)
             parameters = {_column(name): value for name, value in self.values(point).items() if name != "run.seed"}
             if len(self.scenes) > 1:
-                parameters = {"scene": self.scene(point).name, **parameters}
-            yield point, self.scene(point), parameters, max(first - start, 0), min(last - start, self.runs)
+                parameters = {"scene": scene.name, **parameters}
+            yield point, scene, parameters, max(first - start, 0), min(last - start, self.runs)
 
     def compute(self, number: int, path: str | os.PathLike[str], *, cache: bool | str | os.PathLike[str] = True) -> None:
         """Computes a partition on this thread and writes its file."""
