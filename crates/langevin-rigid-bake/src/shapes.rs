@@ -18,6 +18,38 @@ use round::Prism;
 /// Most triangles a generated body may have.
 pub const MAX_TRIANGLES: usize = 1 << 20;
 
+/// Every [`Shape`](crate::shapes::Shape) by its name, as rows for a macro: `"name": Variant { dimension, ... },`.
+///
+/// Scenes and other front ends make of these rows what reads a shape by its name and dimensions.
+///
+/// ```
+/// macro_rules! names {
+///     ($($name:literal: $variant:ident { $($dimension:ident),* },)*) => {
+///         [$($name),*]
+///     };
+/// }
+///
+/// assert!(langevin_rigid_bake::for_shapes!(names).contains(&"leaf"));
+/// ```
+#[macro_export]
+macro_rules! for_shapes {
+    ($rows:ident) => {
+        $rows! {
+            "ellipsoid": Ellipsoid { semi_axes },
+            "elliptical-plate": EllipticalPlate { semi_axes, thickness },
+            "disc": Disc { radius, thickness },
+            "coin": Coin { diameter, thickness, hole },
+            "washer": Washer { diameter, inner_diameter, thickness },
+            "box": Box { size },
+            "cylinder": Cylinder { radius, height },
+            "paper-airplane": PaperAirplane { side, thickness },
+            "leaf": Leaf { length, width, thickness },
+            "feather": Feather { length, width, thickness },
+            "samara": Samara { length, width, thickness },
+        }
+    };
+}
+
 /// A parametric body; lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {

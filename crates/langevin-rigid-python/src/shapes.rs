@@ -1,6 +1,7 @@
 //! Parametric bodies by the names and dimensions that scenes give them.
 
 use langevin_rigid::choose;
+use langevin_rigid_bake::for_shapes;
 use langevin_rigid_bake::shapes::Shape;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -44,19 +45,7 @@ macro_rules! shapes {
     };
 }
 
-shapes! {
-    "ellipsoid": Ellipsoid { semi_axes },
-    "elliptical-plate": EllipticalPlate { semi_axes, thickness },
-    "disc": Disc { radius, thickness },
-    "coin": Coin { diameter, thickness, hole },
-    "washer": Washer { diameter, inner_diameter, thickness },
-    "box": Box { size },
-    "cylinder": Cylinder { radius, height },
-    "paper-airplane": PaperAirplane { side, thickness },
-    "leaf": Leaf { length, width, thickness },
-    "feather": Feather { length, width, thickness },
-    "samara": Samara { length, width, thickness },
-}
+for_shapes!(shapes);
 
 fn dimension<T: Dimension>(given: &Bound<'_, PyDict>, shape: &str, key: &str) -> PyResult<T> {
     match given.get_item(key)? {

@@ -1,5 +1,6 @@
 //! The parametric shapes by name, with the keys of their dimensions.
 
+use langevin_rigid_bake::for_shapes;
 use langevin_rigid_bake::shapes::Shape;
 use serde_spanned::Spanned;
 
@@ -15,7 +16,7 @@ struct Entry {
     read: fn(&Dimensions) -> Result<Shape, SceneError>,
 }
 
-/// Makes of one row a shape the table that is read by and the function that writes.
+/// Makes of the rows of shapes the table that is read by and the function that writes.
 macro_rules! shapes {
     ($($name:literal: $shape:ident { $($key:ident),* },)*) => {
         /// All shapes, as messages list them.
@@ -38,19 +39,7 @@ macro_rules! shapes {
     };
 }
 
-shapes! {
-    "ellipsoid": Ellipsoid { semi_axes },
-    "elliptical-plate": EllipticalPlate { semi_axes, thickness },
-    "disc": Disc { radius, thickness },
-    "coin": Coin { diameter, thickness, hole },
-    "washer": Washer { diameter, inner_diameter, thickness },
-    "box": Box { size },
-    "cylinder": Cylinder { radius, height },
-    "paper-airplane": PaperAirplane { side, thickness },
-    "leaf": Leaf { length, width, thickness },
-    "feather": Feather { length, width, thickness },
-    "samara": Samara { length, width, thickness },
-}
+for_shapes!(shapes);
 
 /// A dimension as a scene file has it: arrays are lists there.
 trait IntoRaw {
