@@ -284,7 +284,12 @@ impl<F: Symmetry, R: Real> Equations<F, R> {
                 h,
                 &statics,
                 #[inline(always)]
-                |xi, ambient| closure.load(xi, ambient),
+                |xi, ambient| {
+                    h.apart(
+                        #[inline(always)]
+                        || closure.load(xi, ambient),
+                    )
+                },
             );
         }
         if R::ALONE && R::any(part.stiff) {
@@ -294,7 +299,12 @@ impl<F: Symmetry, R: Real> Equations<F, R> {
                 h,
                 &statics,
                 #[inline(always)]
-                |xi, ambient| closure.resisted_load(xi, ambient),
+                |xi, ambient| {
+                    h.apart(
+                        #[inline(always)]
+                        || closure.resisted_load(xi, ambient),
+                    )
+                },
             );
             motion = chosen(part.stiff, &resisted, &motion);
         }

@@ -486,8 +486,22 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         }
     }
 
+    /// The rate within a step, where the body is at `y`.
     #[inline(always)]
     fn rate(
+        &self,
+        y: &Increment<R>,
+        statics: &Statics<R>,
+        load: &impl Fn(&Vec6<R>, &Ambient<R>) -> Option<Load<R>>,
+    ) -> Increment<R> {
+        y.work.apart(
+            #[inline(always)]
+            || self.rate_inlined(y, statics, load),
+        )
+    }
+
+    #[inline(always)]
+    fn rate_inlined(
         &self,
         y: &Increment<R>,
         statics: &Statics<R>,

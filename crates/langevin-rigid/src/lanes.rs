@@ -150,6 +150,10 @@ impl<S: Simd> Real for Doubles<S> {
         mask.0.any_true()
     }
     #[inline(always)]
+    fn outlined<T>(self, f: impl FnOnce() -> T) -> T {
+        self.0.token().vectorize(f)
+    }
+    #[inline(always)]
     fn map(mut self, f: impl Fn(f64) -> f64) -> Self {
         for i in 0..S::f64s::LEN {
             self.0[i] = f(self.0[i]);
@@ -246,6 +250,10 @@ impl<S: Simd> Real for Singles<S> {
     #[inline(always)]
     fn any(mask: Self::Mask) -> bool {
         mask.0.any_true()
+    }
+    #[inline(always)]
+    fn outlined<T>(self, f: impl FnOnce() -> T) -> T {
+        self.0.token().vectorize(f)
     }
     #[inline(always)]
     fn map(mut self, f: impl Fn(f64) -> f64) -> Self {
