@@ -12,15 +12,15 @@ use langevin_rigid::linalg::vector::norm;
 use langevin_rigid_bake::progress::Silent;
 use langevin_rigid_formats::budget::Need;
 use langevin_rigid_formats::files::{self, Claim};
-use langevin_rigid_formats::trajectory::Trajectory;
+use langevin_rigid_pictures::View;
 use langevin_rigid_scenes::direct::{self, Directed, Found};
 use langevin_rigid_scenes::prepared::Prepared;
 use langevin_rigid_scenes::scene;
+use langevin_rigid_scenes::shot::{Shot, Shown};
 use serde::Serialize;
 
-use crate::arguments::{Direct, Shown};
+use crate::arguments::Direct;
 use crate::bars::Bars;
-use crate::pictures::Shot;
 use crate::simulate::resolved;
 use crate::{cache, forecast, say};
 
@@ -176,8 +176,14 @@ fn write_all(folder: &Path, prepared: &Prepared, found: &Found, report: &Report)
         files::write(&file, resolved(&scene)?.as_bytes())?;
         let again = Prepared::of(scene, Arc::clone(prepared.baked()))?;
         let fall = again.drop(&again.release(0), &Silent(&()));
-        let trajectory = Trajectory::new(fall.body, &fall.states);
-        let picture = Shot::new(Shown::Both, None, &again, &[(&trajectory).into()]).picture()?;
+        let trajectory = fall.trajectory();
+        let shot = Shot::new(
+            Shown::Both,
+            View::default(),
+            &again,
+            &[(&trajectory).into()],
+        );
+        let picture = shot.picture()?.png()?;
         files::write(&folder.join(format!("best-{number}.png")), &picture)?;
     }
     Ok(())

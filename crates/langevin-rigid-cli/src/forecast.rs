@@ -1,11 +1,10 @@
 //! What a command will take, told and checked before it begins.
 
 use anyhow::Result;
-use langevin_rigid::linalg::Vec3;
-use langevin_rigid::{Body, State};
+use langevin_rigid::Body;
 use langevin_rigid_formats::budget::{self, Need};
-use langevin_rigid_formats::track::Pose;
 use langevin_rigid_scenes::baking::characteristic_speed;
+use langevin_rigid_scenes::prepared::STATE_MEMORY;
 use langevin_rigid_scenes::scene::Scene;
 
 use crate::say;
@@ -15,10 +14,6 @@ const WORTH_A_WORD: Need = Need {
     bytes: 1_000_000_000,
     steps: 1_000_000_000,
 };
-
-/// Memory of a step that is kept: its state, in a list that grows, its row in a trajectory and in a table.
-pub(crate) const STATE: usize =
-    2 * size_of::<State>() + size_of::<Pose>() + 2 * size_of::<Vec3>() + 220;
 
 /// Memory of a frame of a body in an animation.
 const FRAME: usize = 80;
@@ -50,5 +45,5 @@ pub(crate) fn kept(bodies: u32, seconds: f64, time_step: f64, fps: Option<f64>) 
     let bodies = f64::from(bodies);
     let steps = bodies * (seconds / time_step).ceil().max(1.0);
     let frames = bodies * seconds * fps.unwrap_or(0.0);
-    Need::new(steps * STATE as f64 + frames * FRAME as f64, steps)
+    Need::new(steps * STATE_MEMORY as f64 + frames * FRAME as f64, steps)
 }

@@ -5,22 +5,21 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context as _, Result, bail};
-use langevin_rigid_formats::budget;
 use langevin_rigid_formats::export::{self, ExportError, Format, Options, RecordedBody, Recording};
 use langevin_rigid_formats::files;
 use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::Trajectory;
-use langevin_rigid_pictures::Film;
+use langevin_rigid_pictures::{Film, View};
 use langevin_rigid_scenes::baking::Baked;
 use langevin_rigid_scenes::cast::Cast;
-use langevin_rigid_scenes::prepared::{Fall, Prepared};
+use langevin_rigid_scenes::prepared::Fall;
 use langevin_rigid_scenes::scene::{self, Scene};
+use langevin_rigid_scenes::shot::Shot;
 use langevin_rigid_scenes::summary::Summary;
 
 use crate::arguments::Simulate;
 use crate::bars::Bars;
-use crate::pictures::{self, Shot};
-use crate::{cache, forecast, say};
+use crate::{cache, forecast, pictures, say};
 
 pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     export::check(&options.format)?;
@@ -46,7 +45,7 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     let cast = Cast::new(&prepared)?;
 
     let started = Instant::now();
-    let falls = drop(options.bodies, &prepared, bars)?;
+    let falls = bars.stoppable(|| prepared.drop_bodies(options.bodies, bars))?;
     let run_seconds = started.elapsed().as_secs_f64();
 
     let mut summary = Summary::new(&prepared, &falls);
@@ -58,20 +57,14 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     summary.seconds.run = run_seconds;
     let steps: usize = falls.iter().map(|fall| fall.states.len() - 1).sum();
     summary.seconds.per_step = run_seconds / steps.max(1) as f64;
-    let trajectories: Vec<Trajectory> = falls
-        .iter()
-        .map(|fall| Trajectory::new(fall.body, &fall.states))
-        .collect();
+    let trajectories: Vec<Trajectory> = falls.iter().map(Fall::trajectory).collect();
     let kinds = cast.kinds();
     let bodies = falls.iter().zip(&trajectories);
     let bodies: Vec<RecordedBody<'_>> = bodies
-        .map(|(fall, trajectory)| RecordedBody {
-            kind: fall.kind,
-            scale: fall.scale,
-            trajectory,
-        })
+        .map(|(fall, trajectory)| fall.recorded(trajectory))
         .collect();
-    let shot = Shot::new(options.picture, options.view, &prepared, &bodies);
+    let view = options.view.map_or(View::default(), View::from);
+    let shot = Shot::new(options.picture.into(), view, &prepared, &bodies);
     let run = Recording {
         conditions: scene.conditions(),
         kinds: &kinds,
@@ -80,15 +73,15 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
     let formats = write_all(options, &folder, scene, &run, &shot, &mut summary)?;
     let film = match &options.frames {
         Some(folder) => {
-            let work = || pictures::film(&shot, folder, options.fps, bars);
-            Some(bars.stoppable(work)?)
+            let work = || shot.film(folder, options.fps, bars);
+            Some((folder, bars.stoppable(work)?))
         }
         None => None,
     };
     bars.clear();
     tell(options, &folder, &summary)?;
-    if let Some(film) = film {
-        film.tell(options.json)?;
+    if let Some((folder, frames)) = film {
+        pictures::tell(frames, folder, options.fps, options.json)?;
     }
     fail_if_full(&falls, &folder)?;
     fail_if_diverged(&falls, &folder)?;
@@ -98,16 +91,6 @@ pub(crate) fn simulate(options: &Simulate, bars: &Bars) -> Result<()> {
 /// How many bodies the run is to have.
 fn asked(bodies: u32, scene: &Scene) -> u32 {
     scene.crowd.as_ref().map_or(bodies, |crowd| crowd.count)
-}
-
-fn drop(bodies: u32, prepared: &Prepared, bars: &Bars) -> Result<Vec<Fall>> {
-    let most = budget::spare() / forecast::STATE as u64;
-    let most = |share: u64| usize::try_from(most / share).unwrap_or(usize::MAX);
-    if prepared.surroundings().is_some() {
-        return Ok(bars.stoppable(|| prepared.drop_together(bodies, most(1), bars))?);
-    }
-    let each = most(u64::from(bodies));
-    Ok(bars.stoppable(|| prepared.drop_side_by_side(bodies, each, bars)))
 }
 
 fn missing(asked: u32, begun: usize) -> Option<String> {
@@ -232,7 +215,7 @@ fn write_all(
     summary.seconds.write = started.elapsed().as_secs_f64();
 
     let started = Instant::now();
-    match shot.picture() {
+    match shot.picture().and_then(|picture| picture.png()) {
         Ok(png) => {
             files::write(&folder.join("trajectory.png"), &png)?;
             summary.files.push("trajectory.png".into());

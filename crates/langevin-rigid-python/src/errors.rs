@@ -19,6 +19,7 @@ use langevin_rigid_scenes::scene::FindError;
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyPermissionError, PyValueError};
 use pyo3::prelude::*;
 
+pyo3::import_exception!(langevin_rigid.errors, LangevinRigidError);
 pyo3::import_exception!(langevin_rigid.errors, MeshError);
 pyo3::import_exception!(langevin_rigid.errors, BakeError);
 pyo3::import_exception!(langevin_rigid.errors, SceneError);

@@ -24,6 +24,7 @@ mod loads;
 mod mesh;
 mod regimes;
 mod repair;
+mod reproduce;
 mod run;
 mod scene;
 mod shapes;
@@ -62,6 +63,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(regimes::regimes, module)?)?;
     module.add_function(wrap_pyfunction!(direct::direct, module)?)?;
     module.add_function(wrap_pyfunction!(run::simulate, module)?)?;
+    module.add_function(wrap_pyfunction!(reproduce::reproduce, module)?)?;
     module.add_function(wrap_pyfunction!(ensemble::ensemble, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::_sweep_part, module)?)?;
     module.add_function(wrap_pyfunction!(scene::_scene_of_parts, module)?)?;

@@ -3,24 +3,24 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use langevin_rigid_formats::budget;
+use langevin_rigid::choose;
 use langevin_rigid_formats::export::{self, Format, Options, RecordedBody, Recording};
+use langevin_rigid_formats::files::Claim;
 use langevin_rigid_formats::trajectory::Trajectory;
+use langevin_rigid_pictures::View;
 use langevin_rigid_scenes::cast::Cast;
 use langevin_rigid_scenes::prepared::{Fall, Prepared};
+use langevin_rigid_scenes::shot::{FilmError, Shot, Shown};
 use langevin_rigid_scenes::summary::Summary;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::body::Body;
-use crate::errors::{OrRaise, SceneError};
+use crate::errors::{OrRaise, Raised, SceneError};
 use crate::files;
 use crate::interrupt::interruptible;
 use crate::scene::{Cache, Scene, prepare};
 use crate::state::States;
-
-/// How a state is counted against memory: itself, and what is made of it.
-const STATE: u64 = 1024;
 
 /// What the bodies of a scene did.
 #[pyclass(frozen, module = "langevin_rigid")]
@@ -89,21 +89,8 @@ impl Run {
         py.detach(|| -> PyResult<()> {
             let cast = Cast::new(&self.prepared)
                 .map_err(|error| SceneError::new_err(error.to_string()))?;
-            let trajectories: Vec<Trajectory> = self
-                .falls
-                .iter()
-                .map(|fall| Trajectory::new(fall.body, &fall.states))
-                .collect();
-            let bodies: Vec<RecordedBody<'_>> = self
-                .falls
-                .iter()
-                .zip(&trajectories)
-                .map(|(fall, trajectory)| RecordedBody {
-                    kind: fall.kind,
-                    scale: fall.scale,
-                    trajectory,
-                })
-                .collect();
+            let trajectories = self.trajectories();
+            let bodies = self.recorded(&trajectories);
             let kinds = cast.kinds();
             let run = Recording {
                 conditions: self.prepared.scene().conditions(),
@@ -131,6 +118,55 @@ impl Run {
         Ok(summary.files.into_iter().chain(names).collect())
     }
 
+    /// Writes a picture of the motion as a PNG file: `shown` is `strobe` for the bodies at equal times, `path` for their
+    /// paths, or `both`; `view` is `front`, `side`, `top`, `iso`, or `None` for front and side next to each other.
+    ///
+    /// >>> run = simulate("paper-75", seed=1, duration=0.5)
+    /// >>> run.picture("fall.png", view="iso")
+    #[pyo3(signature = (path, *, shown = "both", view = None))]
+    fn picture(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        shown: &str,
+        view: Option<&str>,
+    ) -> PyResult<()> {
+        let (shown, view) = (shown_as(shown)?, seen_from(view)?);
+        let png = interruptible(py, |_| {
+            let trajectories = self.trajectories();
+            let bodies = self.recorded(&trajectories);
+            let shot = Shot::new(shown, view, &self.prepared, &bodies);
+            shot.picture().and_then(|picture| picture.png())
+        })?;
+        let png = png.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        files::write(py, &path, &png)
+    }
+
+    /// Writes a film of `fps` frames a second into a folder as frame-00001.png, frame-00002.png and so on; gives their
+    /// number. `shown` and `view` are those of `picture`.
+    #[pyo3(signature = (folder, *, fps = 60.0, shown = "both", view = None))]
+    fn film(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        fps: f64,
+        shown: &str,
+        view: Option<&str>,
+    ) -> PyResult<usize> {
+        let (shown, view) = (shown_as(shown)?, seen_from(view)?);
+        let _claim = Claim::folder(&folder).or_raise()?;
+        let frames = interruptible(py, |wanted| {
+            let trajectories = self.trajectories();
+            let bodies = self.recorded(&trajectories);
+            Shot::new(shown, view, &self.prepared, &bodies).film(&folder, fps, wanted)
+        })?;
+        match frames {
+            Ok(frames) => Ok(frames.written),
+            Err(FilmError::Write(error)) => Err(error.raised()),
+            Err(error) => Err(PyValueError::new_err(error.to_string())),
+        }
+    }
+
     fn __len__(&self) -> usize {
         self.falls.len()
     }
@@ -145,6 +181,40 @@ impl Run {
             first.ending()
         )
     }
+}
+
+impl Run {
+    fn trajectories(&self) -> Vec<Trajectory> {
+        self.falls.iter().map(Fall::trajectory).collect()
+    }
+
+    fn recorded<'a>(&self, trajectories: &'a [Trajectory]) -> Vec<RecordedBody<'a>> {
+        let bodies = self.falls.iter().zip(trajectories);
+        bodies
+            .map(|(fall, trajectory)| fall.recorded(trajectory))
+            .collect()
+    }
+}
+
+fn shown_as(name: &str) -> PyResult<Shown> {
+    let choices = [
+        ("strobe", Shown::Strobe),
+        ("path", Shown::Path),
+        ("both", Shown::Both),
+    ];
+    choose("way to show a motion", name, choices).or_raise()
+}
+
+fn seen_from(name: Option<&str>) -> PyResult<View> {
+    let choices = [
+        ("front", View::Front),
+        ("side", View::Side),
+        ("top", View::Top),
+        ("iso", View::Iso),
+    ];
+    name.map_or(Ok(View::default()), |name| {
+        choose("view", name, choices).or_raise()
+    })
 }
 
 /// Drops the body of a scene, or so many side by side, until they end.
@@ -207,14 +277,8 @@ pub(crate) fn simulate(
     prepared
         .check_release()
         .map_err(|error| SceneError::new_err(error.to_string()))?;
-    let most = budget::spare() / STATE;
-    let most = |share: u64| usize::try_from(most / share).unwrap_or(usize::MAX);
-    let falls = interruptible(py, |wanted| match prepared.surroundings() {
-        Some(_) => prepared
-            .drop_together(bodies, most(1), wanted)
-            .map_err(|error| SceneError::new_err(error.to_string())),
-        None => Ok(prepared.drop_side_by_side(bodies, most(u64::from(bodies)), wanted)),
-    })??;
+    let falls = interruptible(py, |wanted| prepared.drop_bodies(bodies, wanted))?
+        .map_err(|error| SceneError::new_err(error.to_string()))?;
     Ok(Run { prepared, falls })
 }
 

@@ -28,7 +28,8 @@ def examples():
 
 
 @pytest.mark.parametrize("example", list(examples()), ids=lambda example: example.name)
-def test_examples_run(example):
+def test_examples_run(example, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     assert doctest.DocTestRunner().run(example).failed == 0
 
 

@@ -169,3 +169,40 @@ def test_a_directed_fall_does_what_it_says():
     assert np.array_equal(again.states[len(again.states) - 1].position, best.end.position)
     with pytest.raises(lr.SceneError, match=r"give it a \[direct\]"):
         lr.direct(BALL)
+
+
+def test_a_run_is_drawn_and_filmed(tmp_path):
+    run = lr.simulate({**BALL, "run": {"time_step": 0.002, "duration": 0.2}})
+    pictures = [tmp_path / f"{shown}.png" for shown in ("strobe", "path", "both")]
+    for path in pictures:
+        run.picture(path, shown=path.stem)
+    drawn = {path.read_bytes() for path in pictures}
+    assert len(drawn) == 3 and all(png.startswith(b"\x89PNG") for png in drawn)
+    run.picture(tmp_path / "top.png", view="top")
+    assert (tmp_path / "top.png").read_bytes() not in drawn
+
+    frames = run.film(tmp_path / "film", fps=50)
+    assert frames == 11
+    names = sorted(path.name for path in (tmp_path / "film").glob("*.png"))
+    assert names == [f"frame-{number:05}.png" for number in range(1, 12)]
+
+    with pytest.raises(ValueError, match="`tpo` is no view; did you mean `top`?"):
+        run.picture(tmp_path / "none.png", view="tpo")
+    with pytest.raises(ValueError, match="way to show a motion"):
+        run.film(tmp_path / "none", shown="all")
+    with pytest.raises(ValueError):
+        run.film(tmp_path / "none", fps=0)
+    with pytest.raises(OSError):
+        run.picture(tmp_path / "top.png" / "none.png")
+    assert not (tmp_path / "none.png").exists()
+
+
+def test_the_paper_is_reproduced(tmp_path):
+    page = lr.reproduce(tmp_path / "report", parts=["fig2"], seeds=1, cache=False)
+    assert page == tmp_path / "report" / "report.html"
+    assert "fig2" in page.read_text() and (tmp_path / "report" / "fig2").is_dir()
+    with pytest.raises(ValueError, match="`fig22` is no part; did you mean `fig2`?"):
+        lr.reproduce(tmp_path / "none", parts=["fig22"])
+    with pytest.raises(ValueError, match="at least one"):
+        lr.reproduce(tmp_path / "none", parts=["fig2"], seeds=0)
+    assert not (tmp_path / "none").exists()

@@ -51,6 +51,7 @@
 //! - [`advance`](mod@advance): one step of a scene, for hosts with a loop of their own.
 //! - [`look`](mod@look): how bodies look in exports; [`cast`]: all bodies of a run with their looks.
 //! - [`together`]: bodies that touch, float, and are many.
+//! - [`shot`]: pictures and films of a run.
 //! - [`ensemble`]: many falls, what kind of motion each is, and their statistics.
 //! - [`sweep`]: ensembles of many scenes, in parts that any process can do.
 //! - [`summary`]: what a run comes to.
@@ -85,6 +86,7 @@ pub mod look;
 pub mod prepared;
 pub mod regimes;
 pub mod scene;
+pub mod shot;
 mod stage;
 pub mod summary;
 pub mod sweep;

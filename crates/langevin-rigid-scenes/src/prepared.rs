@@ -12,13 +12,17 @@ use langevin_rigid::{
     Body, BodyError, Ending, Fluid, Hull, NoiseStream, SetupError, State, StepError, Stepper, run,
 };
 use langevin_rigid_bake::progress::{Progress, Silent};
+use langevin_rigid_formats::budget;
+use langevin_rigid_formats::export::RecordedBody;
+use langevin_rigid_formats::track::Pose;
+use langevin_rigid_formats::trajectory::Trajectory;
 use rayon::prelude::*;
 
 use crate::advance::advance;
 use crate::baking::{Baked, SceneBakeError, bake_scene, stepper};
 use crate::ensemble::{Change, side_by_side};
 use crate::scene::{Scene, SceneWindError};
-use crate::together::{Surroundings, SurroundingsError};
+use crate::together::{Surroundings, SurroundingsError, TogetherError};
 
 /// A scene with its bake, its stepper and the hull that touches the ground: all that a run needs.
 ///
@@ -127,9 +131,45 @@ impl Fall {
             Err(_) => "diverged",
         }
     }
+
+    /// Where it went.
+    pub fn trajectory(&self) -> Trajectory {
+        Trajectory::new(self.body, &self.states)
+    }
+
+    /// Itself for exports and pictures; `trajectory` is its own.
+    pub fn recorded<'a>(&self, trajectory: &'a Trajectory) -> RecordedBody<'a> {
+        RecordedBody {
+            kind: self.kind,
+            scale: self.scale,
+            trajectory,
+        }
+    }
 }
 
+/// Memory of a state that is kept (bytes): itself, in a list that grows, and its row in a trajectory and in a table.
+pub const STATE_MEMORY: usize =
+    2 * size_of::<State>() + size_of::<Pose>() + 2 * size_of::<Vec3>() + 220;
+
 impl Prepared {
+    /// Drops so many bodies and keeps as many of their states as there is memory for: together where the scene is a
+    /// [world](Scene::is_world), else side by side.
+    ///
+    /// # Errors
+    /// As [`Prepared::drop_together`].
+    pub fn drop_bodies(
+        &self,
+        bodies: u32,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Fall>, TogetherError> {
+        let most = budget::spare() / STATE_MEMORY as u64;
+        let most = |share: u64| usize::try_from(most / share).unwrap_or(usize::MAX);
+        match self.surroundings() {
+            Some(_) => self.drop_together(bodies, most(1), progress),
+            None => Ok(self.drop_side_by_side(bodies, most(u64::from(bodies)), progress)),
+        }
+    }
+
     /// Drops so many bodies on all cores and keeps their states, `most` of them for each body; without those that had not
     /// begun when `progress` cancelled.
     pub fn drop_side_by_side(

@@ -46,6 +46,7 @@ from ._native import (
     ensemble,
     regimes,
     repair,
+    reproduce,
     simulate,
     turbulence,
 )
@@ -98,6 +99,7 @@ __all__ = [
     "normal",
     "regimes",
     "repair",
+    "reproduce",
     "simulate",
     "sweep",
     "turbulence",

@@ -1,5 +1,6 @@
 import os
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, Literal, Protocol, final, overload
 
 import numpy as np
@@ -52,6 +53,8 @@ _Array = NDArray[np.float64]
 _Path = str | os.PathLike[str]
 _Format = Literal["table", "json", "csv", "sdf", "uuv", "mujoco", "capytaine"]
 _Unit = Literal["m", "cm", "mm", "um", "in", "inch", "ft"]
+_Shown = Literal["strobe", "path", "both"]
+_View = Literal["front", "side", "top", "iso"]
 _Model = Literal["separated", "consistent", "kirchhoff", "published", "published-si"]
 _Cause = Literal[
     "weight",
@@ -706,6 +709,10 @@ class Run:
     def summary(self) -> dict[str, Any]: ...
     def to_pandas(self) -> Any: ...
     def save(self, folder: _Path, *, formats: Sequence[str] = ..., fps: float = 60.0) -> list[str]: ...
+    def picture(self, path: _Path, *, shown: _Shown = "both", view: _View | None = None) -> None: ...
+    def film(
+        self, folder: _Path, *, fps: float = 60.0, shown: _Shown = "both", view: _View | None = None
+    ) -> int: ...
     def __len__(self) -> int: ...
 
 @final
@@ -740,6 +747,14 @@ def simulate(
     bodies: int = 1,
     cache: _Cache = ...,
 ) -> Run: ...
+def reproduce(
+    folder: _Path,
+    *,
+    parts: Sequence[str] | None = None,
+    seeds: int = 100,
+    seed: int = 1,
+    cache: _Cache = ...,
+) -> Path: ...
 def ensemble(
     scene: _SceneLike,
     runs: int,
