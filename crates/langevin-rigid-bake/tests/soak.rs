@@ -137,7 +137,18 @@ fn fall(body: &Body, fluid: &Fluid, model: Model, start: &State, seed: u64) -> R
 
 #[test]
 fn random_bodies_are_finite_and_move_as_their_energy_lets_them() {
-    let failures: Vec<String> = (0..1000u32)
+    soak(0..250);
+}
+
+#[test]
+#[ignore = "three minutes"]
+fn a_thousand_more_do_too() {
+    soak(250..1250);
+}
+
+/// Bakes and drops the random bodies of these numbers.
+fn soak(numbers: std::ops::Range<u32>) {
+    let failures: Vec<String> = numbers
         .into_par_iter()
         .flat_map_iter(|number| {
             let mut dice = Dice {
