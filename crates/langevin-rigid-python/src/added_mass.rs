@@ -59,7 +59,8 @@ impl AddedMass {
         self.report.fluid_density
     }
 
-    /// Estimated relative error of the matrix, that of a proxy included.
+    /// Estimated relative error of the matrix, that of a proxy included: beside the largest entry of each block. Entries far
+    /// smaller than that may be off by more.
     #[getter]
     fn error_estimate(&self) -> f64 {
         self.report.error_estimate
