@@ -43,6 +43,7 @@ __all__ = [
     "ensemble",
     "regimes",
     "repair",
+    "reproduce",
     "simulate",
     "turbulence",
 ]
