@@ -24,7 +24,7 @@ pub struct lr_state {
     /// Angular velocity, body frame (rad/s).
     pub angular_velocity: lr_vec3,
     /// Turbulence that the body sees under `LR_MODEL_SEPARATED`, world frame: velocity of the fluid in units of its standard
-    /// deviation. Zero at release; a step keeps it.
+    /// deviation. Zero at release; steps change it.
     pub fluctuation: lr_vec3,
     /// The same of the rotation rate of the fluid.
     pub fluctuation_spin: lr_vec3,
