@@ -1,5 +1,7 @@
 //! Programs in C and C++ over the header and the built libraries: what they print has the bits of the same calls in Rust.
 
+#![cfg(unix)]
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,6 +13,7 @@ use langevin_rigid::{
 };
 
 const HERE: &str = env!("CARGO_MANIFEST_DIR");
+const ARCHIVE: &str = "liblangevin_rigid_c.a";
 
 /// The system's compiler, if it has one.
 fn compiler(variable: &str, usual: &str) -> Option<Command> {
@@ -32,18 +35,10 @@ fn libraries() -> PathBuf {
     let folders = [beside, beside.parent().unwrap()];
     let found = folders
         .iter()
-        .find(|folder| folder.join(archive()).exists() && folder.join(shared()).exists());
+        .find(|folder| folder.join(ARCHIVE).exists() && folder.join(shared()).exists());
     found
-        .unwrap_or_else(|| panic!("{} and {} are in none of {folders:?}", archive(), shared()))
+        .unwrap_or_else(|| panic!("{} and {} are in none of {folders:?}", ARCHIVE, shared()))
         .to_path_buf()
-}
-
-fn archive() -> &'static str {
-    if cfg!(target_env = "msvc") {
-        "langevin_rigid_c.lib"
-    } else {
-        "liblangevin_rigid_c.a"
-    }
 }
 
 fn shared() -> String {
@@ -73,7 +68,7 @@ fn run(source: &str, link: Link, arguments: &[&Path]) -> Option<String> {
         .arg(Path::new(HERE).join("include"))
         .arg(Path::new(HERE).join(source));
     match link {
-        Link::Static => command.arg(libraries.join(archive())),
+        Link::Static => command.arg(libraries.join(ARCHIVE)),
         Link::Shared => command
             .arg(libraries.join(shared()))
             .arg(format!("-Wl,-rpath,{}", libraries.display())),
