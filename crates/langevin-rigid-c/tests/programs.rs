@@ -1,6 +1,9 @@
 //! Programs in C and C++ over the header and the built libraries: what they print has the bits of the same calls in Rust.
 
 #![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod common;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -14,19 +17,6 @@ use langevin_rigid::{
 
 const HERE: &str = env!("CARGO_MANIFEST_DIR");
 const ARCHIVE: &str = "liblangevin_rigid_c.a";
-
-/// The system's compiler, if it has one.
-fn compiler(variable: &str, usual: &str) -> Option<Command> {
-    let name = std::env::var(variable).unwrap_or_else(|_| usual.into());
-    let there = Command::new(&name).arg("--version").output();
-    if there.is_ok_and(|output| output.status.success()) {
-        return Some(Command::new(name));
-    }
-    eprintln!(
-        "SKIPPED: there is no compiler `{name}` here; name another in the variable {variable}"
-    );
-    None
-}
 
 /// The folder where cargo has put the libraries: that of this test, or the one above it.
 fn libraries() -> PathBuf {
@@ -55,7 +45,7 @@ enum Link {
 
 /// Compiles a program of one source file, links it and runs it: what it prints. None if there is no compiler.
 fn run(source: &str, link: Link, arguments: &[&Path]) -> Option<String> {
-    let mut command = compiler("CC", "cc")?;
+    let mut command = common::compiler("CC", "cc")?;
     let libraries = libraries();
     let name = Path::new(source).file_stem().unwrap().to_str().unwrap();
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(match link {
@@ -294,7 +284,7 @@ fn every_call_refuses_what_it_must() {
 
 #[test]
 fn the_header_is_one_of_cpp_too() {
-    let Some(mut command) = compiler("CXX", "c++") else {
+    let Some(mut command) = common::compiler("CXX", "c++") else {
         return;
     };
     let header = Path::new(HERE).join("include/langevin_rigid.h");
