@@ -10,8 +10,9 @@
  * during the call, nor reads if the call writes to it; texts end with a NUL, and arrays are as long as the count beside
  * them. NULL is refused where the function does not say what it means.
  *
- * Failures. A call that can fail returns an lr_status, and nothing else happens then; lr_last_error says in words what was
- * wrong. No call ends the process, and none prints but for a fault of the library.
+ * Failures. A call that can fail returns an lr_status; one that fails changes nothing, but for lr_stepper_step_many and for
+ * a handle that it makes NULL. lr_last_error says in words what was wrong. No call ends the process, and none prints but for
+ * a fault of the library.
  *
  * The same state, input and step have the same bits on every platform, and the same as in Rust.
  */
