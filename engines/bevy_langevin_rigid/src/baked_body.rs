@@ -1,0 +1,96 @@
+//! Baked bodies as assets.
+
+use bevy_asset::io::Reader;
+use bevy_asset::{Asset, AssetLoader, LoadContext};
+use bevy_reflect::TypePath;
+use langevin_rigid::{Bake, BakeError, Body};
+use serde::{Deserialize, Serialize};
+
+/// A body with all that depends on its shape alone; what `langevin-rigid bake` writes.
+///
+/// The library makes plates, discs, ellipsoids, cylinders and boxes itself:
+///
+/// ```
+/// use bevy_langevin_rigid::BakedBody;
+/// use bevy_langevin_rigid::langevin_rigid::Body;
+/// // A leaf of 8 cm by 5 cm, 0.2 mm thick, 450 kg/m^3.
+/// let leaf = BakedBody::from(Body::plate(0.08, 0.05, 0.2e-3, 450.0)?);
+/// # Ok::<(), bevy_langevin_rigid::langevin_rigid::BodyError>(())
+/// ```
+#[derive(Asset, TypePath, Debug, Clone, PartialEq)]
+pub struct BakedBody {
+    /// The body, its origin at its centre of mass.
+    pub bake: Bake,
+    /// Where the centre of mass is in the frame of the mesh that is drawn (m).
+    pub centre_of_mass: [f64; 3],
+}
+
+impl From<Bake> for BakedBody {
+    /// Drawn with its centre of mass at the origin of the mesh.
+    fn from(bake: Bake) -> Self {
+        Self {
+            bake,
+            centre_of_mass: [0.0; 3],
+        }
+    }
+}
+
+impl From<Body> for BakedBody {
+    /// Drawn with its centre of mass at the origin of the mesh.
+    fn from(body: Body) -> Self {
+        Self::from(Bake {
+            body,
+            history: None,
+            error_estimate: 0.0,
+            warnings: Vec::new(),
+            fingerprint: [0; 32],
+        })
+    }
+}
+
+/// Loads a [`BakedBody`] from a file of the command `langevin-rigid bake`, `NAME.lrbake`.
+#[derive(Debug, Default, TypePath)]
+pub struct BakedBodyLoader;
+
+/// How a [`BakedBody`] is loaded.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct BakedBodyLoaderSettings {
+    /// [`BakedBody::centre_of_mass`], which the file does not know (m).
+    pub centre_of_mass: [f64; 3],
+}
+
+/// Why a bake could not be loaded.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// The file could not be read.
+    #[error(transparent)]
+    Read(#[from] std::io::Error),
+    /// The file is no bake.
+    #[error(transparent)]
+    Bake(#[from] BakeError),
+}
+
+impl AssetLoader for BakedBodyLoader {
+    type Asset = BakedBody;
+    type Settings = BakedBodyLoaderSettings;
+    type Error = LoadError;
+
+    async fn load(
+        &self,
+        reader: &mut dyn Reader,
+        settings: &BakedBodyLoaderSettings,
+        _: &mut LoadContext<'_>,
+    ) -> Result<BakedBody, LoadError> {
+        let mut bytes = Vec::new();
+        reader.read_to_end(&mut bytes).await?;
+        Ok(BakedBody {
+            bake: Bake::from_bytes(&bytes)?,
+            centre_of_mass: settings.centre_of_mass,
+        })
+    }
+
+    fn extensions(&self) -> &[&str] {
+        &["lrbake"]
+    }
+}

@@ -1,0 +1,24 @@
+//! Transforms, drawn once a frame.
+
+use bevy_ecs::hierarchy::ChildOf;
+use bevy_ecs::query::Without;
+use bevy_ecs::system::{Query, Res};
+use bevy_time::{Fixed, Time};
+use bevy_transform::components::Transform;
+
+use crate::components::Quarantined;
+use crate::stepped::Stepped;
+
+/// Draws bodies between their last two fixed steps, as far as the frame is.
+pub(crate) fn draw(
+    time: Res<Time<Fixed>>,
+    mut bodies: Query<(&mut Stepped, &mut Transform), (Without<ChildOf>, Without<Quarantined>)>,
+) {
+    let fraction = time.overstep_fraction_f64();
+    for (mut stepped, mut transform) in &mut bodies {
+        stepped.follow(&transform);
+        if stepped.fault.is_none() {
+            stepped.draw(fraction, &mut transform);
+        }
+    }
+}

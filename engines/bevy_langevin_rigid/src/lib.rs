@@ -1,0 +1,54 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Order
+//!
+//! Bodies step in `FixedUpdate`, in the order of [`LangevinRigidSystems`]; after all fixed steps of a frame their
+//! `Transform`s are drawn between the last two. What a game sets in `FixedUpdate` for the coming step, such as an
+//! [`ExternalWrench`], it sets before [`LangevinRigidSystems::Read`]. The length of a step is that of `Time<Fixed>`; any
+//! length is stable.
+//!
+//! # What a game may do
+//!
+//! - Move a body: whoever writes its `Transform` puts the body there, with the velocities it has.
+//! - Read and set [`LinearVelocity`] and [`AngularVelocity`].
+//! - Push it with an [`ExternalWrench`], which acts until it is changed.
+//! - Hold it: a body with a parent goes where the parent takes it, and is at rest when it is let go
+//!   (`remove_parent_in_place`).
+//! - Change [`ImmersionSettings`] and [`AmbientWind`] at any time.
+//! - Scale it. The body has the size that its entity has when it joins; later changes of scale only change what is
+//!   drawn.
+//!
+//! # Same bits
+//!
+//! The states of the bodies ([`Stepped`]) are in double precision, and a pure function of what was spawned, of what the
+//! game set before which fixed step, and of the seed: neither the frame rate nor the number of threads changes a bit. When a
+//! body joins that is baked from its mesh depends on how long that takes; load a [`BakedBody`] where that matters.
+//!
+//! # Conventions
+//!
+//! SI units, angles in radians, +Y up, world frame. Bodies do not meet one another or the ground: their contacts are
+//! those of a physics engine, as wrenches.
+
+mod ambient;
+mod baked_body;
+mod baking;
+mod components;
+mod draw;
+mod join;
+mod plain_fall;
+mod plugin;
+mod quarantine;
+mod stepped;
+mod steppers;
+mod steps;
+
+pub use ambient::{AmbientWind, ImmersionSettings};
+pub use baked_body::{BakedBody, BakedBodyLoader, BakedBodyLoaderSettings, LoadError};
+pub use components::{
+    AngularVelocity, BodySource, ExternalWrench, Immersed, LinearVelocity, Quarantined,
+};
+pub use plugin::{LangevinRigidPlugin, LangevinRigidSystems};
+pub use stepped::Stepped;
+
+/// The library that the plugin steps bodies with.
+pub use langevin_rigid;

@@ -1,0 +1,43 @@
+//! Bodies that cannot go on.
+
+use bevy_ecs::entity::Entity;
+use bevy_ecs::query::Without;
+use bevy_ecs::system::{Commands, Query};
+use bevy_log::error;
+use bevy_transform::components::Transform;
+
+use crate::components::{AngularVelocity, LinearVelocity, Quarantined};
+use crate::stepped::Stepped;
+
+/// Puts bodies with a fault back to where they last were, says why, and leaves them there.
+pub(crate) fn quarantine(
+    mut bodies: Query<
+        (
+            Entity,
+            &mut Stepped,
+            &mut Transform,
+            &mut LinearVelocity,
+            &mut AngularVelocity,
+        ),
+        Without<Quarantined>,
+    >,
+    mut commands: Commands,
+) {
+    for (entity, mut stepped, mut transform, mut velocity, mut angular_velocity) in &mut bodies {
+        let Some(fault) = stepped.fault.take() else {
+            continue;
+        };
+        stepped.restore(&mut transform, &mut velocity, &mut angular_velocity);
+        mark(entity, &fault, &mut commands);
+    }
+}
+
+/// Quarantines an entity and says why.
+pub(crate) fn mark(entity: Entity, fault: &str, commands: &mut Commands) {
+    error!(
+        "the body {entity} is quarantined: {fault}. It stays where it last was; mend this and remove `Quarantined`"
+    );
+    if let Ok(mut entity) = commands.get_entity(entity) {
+        entity.try_insert(Quarantined);
+    }
+}

@@ -1,0 +1,229 @@
+//! The state of a body between fixed steps, and what is known of its entity.
+
+use std::sync::Arc;
+
+use bevy_ecs::component::Component;
+use bevy_math::{DQuat, DVec3, Quat, Vec3};
+use bevy_transform::components::Transform;
+use langevin_rigid::{Input, State, Stepper};
+
+use crate::components::{AngularVelocity, LinearVelocity};
+use crate::plain_fall::fall;
+use crate::steppers::Shape;
+
+/// A body that has joined: its state in double precision, after the last fixed step.
+#[derive(Component, Debug)]
+pub struct Stepped {
+    pub(crate) mover: Mover,
+    /// Of what it is made; none for a body that could not be made.
+    pub(crate) shape: Option<Shape>,
+    /// Why it cannot go on.
+    pub(crate) fault: Option<String>,
+    current: State,
+    previous: State,
+    /// In the frame of the mesh, before it is scaled (m).
+    centre_of_mass: DVec3,
+    written: Written,
+}
+
+/// What moves a body.
+#[derive(Debug, Clone)]
+pub(crate) enum Mover {
+    Immersed(Arc<Stepper>),
+    /// Gravity alone, since the body could not be made.
+    Plain,
+}
+
+/// What the entity was last given; whatever differs, the game has set.
+#[derive(Debug, Clone, Copy)]
+struct Written {
+    translation: Vec3,
+    rotation: Quat,
+    velocity: LinearVelocity,
+    angular_velocity: AngularVelocity,
+}
+
+impl Stepped {
+    /// A body that joins where its entity is; an error says what of it is impossible.
+    pub(crate) fn join(
+        (mover, shape): (Mover, Option<Shape>),
+        centre_of_mass: [f64; 3],
+        transform: &Transform,
+        velocity: LinearVelocity,
+        angular_velocity: AngularVelocity,
+    ) -> Result<Self, String> {
+        let mut joined = Self {
+            mover,
+            shape,
+            fault: None,
+            current: State::default(),
+            previous: State::default(),
+            centre_of_mass: centre_of_mass.into(),
+            written: Written {
+                translation: transform.translation,
+                rotation: transform.rotation,
+                velocity,
+                angular_velocity,
+            },
+        };
+        joined.place(transform, true)?;
+        check_velocities(velocity, angular_velocity)?;
+        joined.current.set_world_velocities(
+            velocity.0.as_dvec3().to_array(),
+            angular_velocity.0.as_dvec3().to_array(),
+        );
+        joined.previous = joined.current;
+        Ok(joined)
+    }
+
+    /// The state after the last fixed step; its position is that of the centre of mass, its clock starts when the body
+    /// joins.
+    pub fn state(&self) -> &State {
+        &self.current
+    }
+
+    /// Whether the body falls plainly, as in no fluid, since it could not be made.
+    pub fn falls_plainly(&self) -> bool {
+        matches!(self.mover, Mover::Plain)
+    }
+
+    /// Takes the body where the game has put its entity.
+    pub(crate) fn follow(&mut self, transform: &Transform) {
+        if !transform.is_finite() {
+            self.fault = Some(not_finite(transform));
+            return;
+        }
+        let turned = transform.rotation != self.written.rotation;
+        if !turned && transform.translation == self.written.translation {
+            return;
+        }
+        match self.place(transform, turned) {
+            Ok(()) => {
+                self.written.translation = transform.translation;
+                self.written.rotation = transform.rotation;
+            }
+            Err(fault) => self.fault = Some(fault),
+        }
+    }
+
+    fn place(&mut self, transform: &Transform, turned: bool) -> Result<(), String> {
+        let velocity = self.current.world_velocity();
+        let spin = self.current.world_angular_velocity();
+        let mut orientation = DQuat::from_array(self.current.orientation);
+        if turned {
+            orientation = transform.rotation.as_dquat().normalize();
+        }
+        let arm = transform.scale.as_dvec3() * self.centre_of_mass;
+        let position = transform.translation.as_dvec3() + orientation * arm;
+        if !(position.is_finite() && orientation.is_finite()) {
+            return Err(not_finite(transform));
+        }
+        self.current.position = position.to_array();
+        self.current.orientation = orientation.to_array();
+        self.current.set_world_velocities(velocity, spin);
+        self.previous = self.current;
+        Ok(())
+    }
+
+    /// Takes the velocities that the game has set.
+    pub(crate) fn accelerate(
+        &mut self,
+        velocity: LinearVelocity,
+        angular_velocity: AngularVelocity,
+    ) {
+        if velocity == self.written.velocity && angular_velocity == self.written.angular_velocity {
+            return;
+        }
+        if let Err(fault) = check_velocities(velocity, angular_velocity) {
+            self.fault = Some(fault);
+            return;
+        }
+        let mut linear = self.current.world_velocity();
+        let mut angular = self.current.world_angular_velocity();
+        if velocity != self.written.velocity {
+            linear = velocity.0.as_dvec3().to_array();
+        }
+        if angular_velocity != self.written.angular_velocity {
+            angular = angular_velocity.0.as_dvec3().to_array();
+        }
+        self.current.set_world_velocities(linear, angular);
+        self.written.velocity = velocity;
+        self.written.angular_velocity = angular_velocity;
+    }
+
+    /// One fixed step of `dt` (s).
+    pub(crate) fn step(&mut self, dt: f64, input: &Input, gravity: [f64; 3]) {
+        let mut next = self.current;
+        match &self.mover {
+            Mover::Immersed(stepper) => {
+                if let Err(error) = stepper.step(&mut next, dt, input) {
+                    self.fault = Some(error.to_string());
+                    return;
+                }
+            }
+            Mover::Plain => {
+                fall(&mut next, gravity, dt);
+                if !next.is_finite() {
+                    self.fault = Some("its fall has become a number that is not finite".into());
+                    return;
+                }
+            }
+        }
+        self.previous = self.current;
+        self.current = next;
+    }
+
+    /// Velocities after the step, which the entity is given.
+    pub(crate) fn velocities(&mut self) -> (LinearVelocity, AngularVelocity) {
+        let single = |a: [f64; 3]| DVec3::from(a).as_vec3();
+        self.written.velocity = LinearVelocity(single(self.current.world_velocity()));
+        self.written.angular_velocity =
+            AngularVelocity(single(self.current.world_angular_velocity()));
+        (self.written.velocity, self.written.angular_velocity)
+    }
+
+    /// Draws the body so far between the last two fixed steps.
+    pub(crate) fn draw(&mut self, fraction: f64, transform: &mut Transform) {
+        let position = |state: &State| DVec3::from(state.position);
+        let orientation = |state: &State| DQuat::from_array(state.orientation);
+        let place = position(&self.previous).lerp(position(&self.current), fraction);
+        let turn = orientation(&self.previous).slerp(orientation(&self.current), fraction);
+        let arm = transform.scale.as_dvec3() * self.centre_of_mass;
+        transform.translation = (place - turn * arm).as_vec3();
+        transform.rotation = turn.as_quat();
+        self.written.translation = transform.translation;
+        self.written.rotation = transform.rotation;
+    }
+
+    /// Puts the entity back to where it last was.
+    pub(crate) fn restore(
+        &self,
+        transform: &mut Transform,
+        velocity: &mut LinearVelocity,
+        angular_velocity: &mut AngularVelocity,
+    ) {
+        transform.translation = self.written.translation;
+        transform.rotation = self.written.rotation;
+        *velocity = self.written.velocity;
+        *angular_velocity = self.written.angular_velocity;
+    }
+}
+
+pub(crate) fn not_finite(transform: &Transform) -> String {
+    format!(
+        "its `Transform` has a number that is not finite or a rotation of no length ({transform:?})"
+    )
+}
+
+fn check_velocities(
+    velocity: LinearVelocity,
+    angular_velocity: AngularVelocity,
+) -> Result<(), String> {
+    if velocity.0.is_finite() && angular_velocity.0.is_finite() {
+        return Ok(());
+    }
+    Err(format!(
+        "its `LinearVelocity` or `AngularVelocity` has a number that is not finite ({}, {})",
+        velocity.0, angular_velocity.0
+    ))
+}
