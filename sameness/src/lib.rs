@@ -2,7 +2,7 @@
 //!
 //! A case is a body in a fluid under a model, stepped alone or in a batch, or a built-in scene, baked and
 //! dropped; its hash is of every bit of what came of it. `sameness/run` compares the hashes between compilers'
-//! settings and processors.
+//! settings and processors; `pinned` has that of all.
 
 mod bodies;
 mod cases;
