@@ -31,14 +31,16 @@ pub struct Checked {
 /// use langevin_rigid_bake::mesh::{Options, repair};
 /// use langevin_rigid_bake::shapes::Shape;
 ///
-/// let cube = Shape::Box { size: [0.1; 3] }.mesh(12)?;
-/// let (vertices, triangles) = (cube.vertices(), &cube.triangles()[1..]);
-/// let checked = check(vertices, triangles, &()).ok_or("cancelled")?;
+/// // A box without its lid: a hole as wide as that is closed only where it is asked for.
+/// let tray = Shape::Box { size: [0.1, 0.05, 0.1] }.mesh(12)?;
+/// let vertices = tray.vertices();
+/// let lid = |triangle: &[u32; 3]| triangle.iter().all(|&corner| vertices[corner as usize][1] > 0.02);
+/// let triangles: Vec<_> = tray.triangles().iter().copied().filter(|t| !lid(t)).collect();
+/// let checked = check(vertices, &triangles, &()).ok_or("cancelled")?;
 /// assert!(!checked.ready());
-/// // A hole as wide as this is closed only where that is asked for.
 /// let options = checked.repair().ok_or("no repair")?;
-/// assert_eq!(options, Options { fill: Some(3), ..Options::default() });
-/// assert!(repair(vertices, triangles, &options, &()).body.is_ok());
+/// assert_eq!(options, Options { fill: Some(checked.survey.holes[0].edges), ..Options::default() });
+/// assert!(repair(vertices, &triangles, &options, &()).body.is_ok());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn check(
@@ -145,11 +147,18 @@ mod tests {
 
     #[test]
     fn a_wide_hole_may_be_the_rim_of_a_sheet() {
-        let mut soup = cube(0.1, 12);
-        soup.1.drain(..2);
+        let tray = Shape::Box {
+            size: [0.1, 0.05, 0.1],
+        };
+        let tray = tray.mesh(12).unwrap();
+        let soup = (tray.vertices().to_vec(), tray.triangles().to_vec());
+        let lid = |t: &[u32; 3]| t.iter().all(|&corner| soup.0[corner as usize][1] > 0.02);
+        let open = soup.1.iter().copied().filter(|t| !lid(t)).collect();
+        let soup = (soup.0.clone(), open);
         let checked = checked(&soup);
         let filled = checked.repair().unwrap();
-        assert_eq!((filled.fill, filled.thickness), (Some(4), None));
+        assert_eq!(filled.fill, Some(checked.survey.holes[0].edges));
+        assert_eq!(filled.thickness, None);
         let sheet = checked.remedy.sheet.unwrap();
         assert!(sheet.thickness.is_some() && sheet.fill.is_none());
         assert!(mends(&soup, filled) && mends(&soup, sheet));

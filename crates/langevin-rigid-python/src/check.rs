@@ -195,7 +195,7 @@ impl Check {
     /// >>> cube = Mesh.shape("box", size=[0.1, 0.1, 0.1], triangles=12)
     /// >>> opened = Mesh(cube.vertices, cube.triangles[1:])
     /// >>> check(opened).repair
-    /// {'fill': 3}
+    /// {}
     /// >>> repair(opened, **check(opened).repair).mesh.is_body
     /// True
     #[getter]

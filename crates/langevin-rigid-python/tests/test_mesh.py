@@ -106,20 +106,21 @@ def test_what_a_check_proposes_mends():
     assert result.repair == {} and result.repair_of_sheet is None
     assert result.repair_steps == mended.steps and result.repair_warnings == mended.warnings
     assert result.expected_error == pytest.approx(lr.check(mended.mesh).expected_error)
-    # Without a face it is a solid with a wide hole, or a sheet.
-    coarse = lr.Mesh.shape("box", size=[0.1, 0.1, 0.1], triangles=12)
-    tray = lr.Mesh(coarse.vertices, coarse.triangles[2:])
+    # A box without its lid is a solid with a wide hole, or a sheet.
+    box = lr.Mesh.shape("box", size=[0.1, 0.05, 0.1], triangles=12)
+    lid = (box.vertices[box.triangles][:, :, 1] > 0.02).all(axis=1)
+    tray = lr.Mesh(box.vertices, box.triangles[~lid])
     result, mended = proposed(tray)
-    assert result.repair == {"fill": 4}
-    assert mended.mesh.volume == pytest.approx(1e-3)
+    assert result.repair == {"fill": result.holes[0]}
+    assert mended.mesh.volume == pytest.approx(5e-4)
     assert result.repair_warnings == mended.warnings and result.repair_warnings
     sheet = lr.repair(tray, **result.repair_of_sheet | {"thickness": 1e-3}).mesh
     assert sheet.volume < 1e-4
-    # A speck beside the body.
-    speck = lr.Mesh.shape("box", size=[1e-3] * 3, triangles=12)
+    # A speck beside the body, which no repair closes.
+    speck = 1.0 + 1e-3 * np.array([[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]])
     both = lr.Mesh(
-        np.vstack([cube.vertices, speck.vertices + 1.0]),
-        np.vstack([cube.triangles, speck.triangles[1:] + len(cube.vertices)]),
+        np.vstack([cube.vertices, speck]),
+        np.vstack([cube.triangles, np.array([[0, 2, 1], [0, 3, 2]]) + len(cube.vertices)]),
     )
     result, mended = proposed(both)
     assert result.repair["largest"] and mended.mesh.volume == pytest.approx(1e-3)
