@@ -194,7 +194,7 @@ mod tests {
     #[test]
     fn lists_of_any_length_are_read_back() {
         let table = |lists: Vec<Vec<f64>>| {
-            let numbers = (0..lists.len()).map(|row| row as f64).collect();
+            let numbers = (0..lists.len()).map(|row| (row + 1) as f64).collect();
             Table::new(vec![
                 Column {
                     name: "row".into(),
@@ -206,17 +206,17 @@ mod tests {
                 },
             ])
         };
-        let various = table(vec![vec![], vec![0.1, -2.0, 3.5], vec![7.0], vec![]]);
+        let various = table(vec![vec![], vec![0.1, 2.5, 3.5], vec![7.0], vec![]]);
         let equal = table(vec![vec![0.25, 0.5]; 2]);
         assert_eq!(
             rows_of(&[various, equal]),
             [
-                "{row: 0.0, list: []}",
-                "{row: 1.0, list: [0.1, -2.0, 3.5]}",
-                "{row: 2.0, list: [7.0]}",
-                "{row: 3.0, list: []}",
-                "{row: 0.0, list: [0.25, 0.5]}",
+                "{row: 1.0, list: []}",
+                "{row: 2.0, list: [0.1, 2.5, 3.5]}",
+                "{row: 3.0, list: [7.0]}",
+                "{row: 4.0, list: []}",
                 "{row: 1.0, list: [0.25, 0.5]}",
+                "{row: 2.0, list: [0.25, 0.5]}",
             ]
         );
     }
