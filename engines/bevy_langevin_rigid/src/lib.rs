@@ -35,9 +35,12 @@ mod baking;
 mod components;
 mod draw;
 mod join;
+mod medium;
 mod plain_fall;
 mod plugin;
 mod quarantine;
+mod regions;
+mod said;
 mod stepped;
 mod steppers;
 mod steps;
@@ -48,7 +51,10 @@ pub use components::{
     AngularVelocity, BodySource, ExternalWrench, Immersed, LinearVelocity, Quarantined,
 };
 pub use plugin::{LangevinRigidPlugin, LangevinRigidSystems};
+pub use regions::{Extent, Fan, FluidRegion};
 pub use stepped::Stepped;
 
 /// The library that the plugin steps bodies with.
 pub use langevin_rigid;
+/// The library's bodies between two fluids.
+pub use langevin_rigid_world;

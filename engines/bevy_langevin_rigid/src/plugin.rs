@@ -11,8 +11,9 @@ use crate::ambient::{AmbientWind, ImmersionSettings};
 use crate::baked_body::{BakedBody, BakedBodyLoader};
 use crate::baking::Bakes;
 use crate::components::NextNumber;
+use crate::regions::Surroundings;
 use crate::steppers::Steppers;
-use crate::{baking, draw, join, quarantine, steppers, steps};
+use crate::{baking, draw, join, quarantine, regions, steppers, steps};
 
 /// Moves bodies that are [`Immersed`](crate::Immersed).
 ///
@@ -24,7 +25,7 @@ pub struct LangevinRigidPlugin;
 /// The systems of the plugin, in their order.
 #[derive(SystemSet, Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LangevinRigidSystems {
-    /// In `FixedUpdate`: meshes are baked, and bodies join whose shape is ready.
+    /// In `FixedUpdate`: fluid regions and fans are found, meshes are baked, and bodies join whose shape is ready.
     Join,
     /// In `FixedUpdate`: what the game has changed since the last step (`Transform`s and velocities) is read.
     Read,
@@ -46,6 +47,8 @@ impl Plugin for LangevinRigidPlugin {
             .init_resource::<Bakes>()
             .init_resource::<NextNumber>()
             .init_resource::<Steppers>()
+            .init_resource::<Surroundings>()
+            .register_type::<crate::Fan>()
             .register_type::<crate::Immersed>()
             .register_type::<crate::LinearVelocity>()
             .register_type::<crate::AngularVelocity>()
@@ -60,6 +63,7 @@ impl Plugin for LangevinRigidPlugin {
                 FixedUpdate,
                 (
                     (
+                        regions::survey,
                         steppers::renew,
                         baking::forget_changed_meshes
                             .run_if(resource_exists::<Messages<AssetEvent<Mesh>>>),

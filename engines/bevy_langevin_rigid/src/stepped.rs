@@ -5,11 +5,13 @@ use std::sync::Arc;
 use bevy_ecs::component::Component;
 use bevy_math::{DQuat, DVec3, Quat, Vec3};
 use bevy_transform::components::Transform;
-use langevin_rigid::{Input, State, Stepper};
+use langevin_rigid::{Input, State};
 
 use crate::components::{AngularVelocity, LinearVelocity};
+use crate::medium::Medium;
 use crate::plain_fall::fall;
-use crate::steppers::Shape;
+use crate::regions::Surroundings;
+use crate::steppers::{Mobility, Shape};
 
 /// A body that has joined: its state in double precision, after the last fixed step.
 #[derive(Component, Debug)]
@@ -19,6 +21,7 @@ pub struct Stepped {
     pub(crate) shape: Option<Shape>,
     /// Why it cannot go on.
     pub(crate) fault: Option<String>,
+    medium: Medium,
     current: State,
     previous: State,
     /// In the frame of the mesh, before it is scaled (m).
@@ -29,7 +32,7 @@ pub struct Stepped {
 /// What moves a body.
 #[derive(Debug, Clone)]
 pub(crate) enum Mover {
-    Immersed(Arc<Stepper>),
+    Immersed(Arc<Mobility>),
     /// Gravity alone, since the body could not be made.
     Plain,
 }
@@ -56,6 +59,7 @@ impl Stepped {
             mover,
             shape,
             fault: None,
+            medium: Medium::default(),
             current: State::default(),
             previous: State::default(),
             centre_of_mass: centre_of_mass.into(),
@@ -122,6 +126,7 @@ impl Stepped {
         self.current.orientation = orientation.to_array();
         self.current.set_world_velocities(velocity, spin);
         self.previous = self.current;
+        self.medium = Medium::Unknown;
         Ok(())
     }
 
@@ -152,14 +157,22 @@ impl Stepped {
     }
 
     /// One fixed step of `dt` (s).
-    pub(crate) fn step(&mut self, dt: f64, input: &Input, gravity: [f64; 3]) {
+    pub(crate) fn step(
+        &mut self,
+        dt: f64,
+        input: &Input,
+        gravity: [f64; 3],
+        surroundings: &Surroundings,
+    ) {
         let mut next = self.current;
         match &self.mover {
-            Mover::Immersed(stepper) => {
-                if let Err(error) = stepper.step(&mut next, dt, input) {
+            Mover::Immersed(mobility) => {
+                let medium = Medium::around(&next, mobility, dt, gravity, surroundings);
+                if let Err(error) = medium.step(&mut next, &self.medium, mobility, dt, input) {
                     self.fault = Some(error.to_string());
                     return;
                 }
+                self.medium = medium;
             }
             Mover::Plain => {
                 fall(&mut next, gravity, dt);

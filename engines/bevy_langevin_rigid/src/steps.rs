@@ -7,10 +7,12 @@ use bevy_log::warn;
 use bevy_math::Vec3;
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
+use langevin_rigid::wind::Wind;
 use langevin_rigid::{Flow, Input, NoiseStream, Wrench};
 
-use crate::ambient::{AmbientWind, ImmersionSettings};
+use crate::ambient::ImmersionSettings;
 use crate::components::{AngularVelocity, ExternalWrench, Immersed, LinearVelocity, Quarantined};
+use crate::regions::Surroundings;
 use crate::stepped::Stepped;
 
 /// Stops bodies that were given a parent: it moves them from now on.
@@ -47,7 +49,7 @@ pub(crate) fn read(
 pub(crate) fn step(
     time: Res<Time<Fixed>>,
     settings: Res<ImmersionSettings>,
-    wind: Res<AmbientWind>,
+    around: Res<Surroundings>,
     mut bodies: Query<
         (&mut Stepped, &Immersed, &ExternalWrench),
         (Without<ChildOf>, Without<Quarantined>),
@@ -62,7 +64,7 @@ pub(crate) fn step(
                 return;
             }
             let input = Input {
-                flow: flow(&wind, &stepped, start, &settings),
+                flow: flow(&around.wind, &stepped, start, &settings),
                 wrench: Wrench {
                     force: wrench.force.as_dvec3().to_array(),
                     torque: wrench.torque.as_dvec3().to_array(),
@@ -72,16 +74,16 @@ pub(crate) fn step(
                     body: immersed.number.unwrap_or(0),
                 },
             };
-            stepped.step(dt, &input, settings.motion.gravity);
+            stepped.step(dt, &input, settings.motion.gravity, &around);
         });
 }
 
-fn flow(wind: &AmbientWind, stepped: &Stepped, time: f64, settings: &ImmersionSettings) -> Flow {
-    if wind.0.is_empty() {
+fn flow(wind: &Wind, stepped: &Stepped, time: f64, settings: &ImmersionSettings) -> Flow {
+    if wind.is_empty() {
         return Flow::default();
     }
     let position = stepped.state().position;
-    wind.0.flow(position, time, settings.fluid.velocity)
+    wind.flow(position, time, settings.fluid.velocity)
 }
 
 /// Writes the velocities after the step.
