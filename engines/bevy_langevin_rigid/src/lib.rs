@@ -41,6 +41,7 @@ mod plugin;
 mod quarantine;
 mod regions;
 mod said;
+mod shedding;
 mod stepped;
 mod steppers;
 mod steps;
@@ -52,6 +53,7 @@ pub use components::{
 };
 pub use plugin::{LangevinRigidPlugin, LangevinRigidSystems};
 pub use regions::{Extent, Fan, FluidRegion};
+pub use shedding::{Crown, DropLeaves, Leaf, LeafLimit, LeavesShed, ShedFrom};
 pub use stepped::Stepped;
 
 /// The library that the plugin steps bodies with.
