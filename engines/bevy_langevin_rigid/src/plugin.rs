@@ -11,6 +11,7 @@ use crate::ambient::{AmbientWind, ImmersionSettings};
 use crate::baked_body::{BakedBody, BakedBodyLoader};
 use crate::baking::Bakes;
 use crate::components::NextNumber;
+use crate::detail::LevelOfDetail;
 use crate::regions::Surroundings;
 use crate::shedding::{DropLeaves, LeafLimit, Shedding};
 use crate::steppers::Steppers;
@@ -52,6 +53,8 @@ impl Plugin for LangevinRigidPlugin {
             .init_resource::<Steppers>()
             .init_resource::<Surroundings>()
             .init_resource::<Shedding>()
+            .init_resource::<LevelOfDetail>()
+            .register_type::<LevelOfDetail>()
             .init_resource::<LeafLimit>()
             .add_message::<DropLeaves>()
             .register_type::<crate::Fan>()

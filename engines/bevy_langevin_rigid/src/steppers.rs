@@ -11,7 +11,7 @@ use bevy_ecs::resource::Resource;
 use bevy_ecs::system::{Query, Res, ResMut};
 use bevy_log::error;
 use bevy_math::DVec3;
-use langevin_rigid::{Bake, Fluid, SetupError, Stepper, TurbulenceHistory};
+use langevin_rigid::{Bake, Fluid, Settings, SetupError, Stepper};
 use langevin_rigid_world::water::Immersion;
 
 use crate::ambient::ImmersionSettings;
@@ -28,6 +28,9 @@ pub(crate) struct Shape {
     pub(crate) scale: f32,
 }
 
+/// The largest [`Settings::longest_part`] that is stable.
+const COARSE: f64 = 1.6;
+
 /// How a body of one shape and size moves: in the fluid around all, and through the surfaces of regions.
 #[derive(Debug)]
 pub(crate) struct Mobility {
@@ -38,21 +41,24 @@ pub(crate) struct Mobility {
     /// What the log calls it.
     name: String,
     settings: ImmersionSettings,
-    /// What crossings are made of; none where there is nothing to cross.
-    matter: Option<(Bake, f64)>,
+    /// What it is made of, and how many times as large.
+    bake: Arc<Bake>,
+    scale: f64,
+    /// In the fluid around all, in as long parts as are stable; made when the first body is far away.
+    coarse: OnceLock<Option<Stepper>>,
     /// Made when the first body comes near: most bodies meet no water.
     crossings: Vec<(Fluid, OnceLock<Option<Arc<Immersion>>>)>,
 }
 
 impl Mobility {
     fn new(
-        baked: &BakedBody,
+        bake: &Arc<Bake>,
         scale: f32,
         settings: &ImmersionSettings,
         fluids: &[Fluid],
         name: String,
     ) -> Result<Self, SetupError> {
-        let (bake, scale) = (&baked.bake, f64::from(scale));
+        let scale = f64::from(scale);
         let body = bake.body.scaled(scale);
         let distance = |vertex: &[f64; 3]| DVec3::from(*vertex).length();
         Ok(Self {
@@ -70,7 +76,9 @@ impl Mobility {
             )?,
             name,
             settings: *settings,
-            matter: (!fluids.is_empty()).then(|| (bake.clone(), scale)),
+            bake: bake.clone(),
+            scale,
+            coarse: OnceLock::new(),
             crossings: fluids
                 .iter()
                 .map(|fluid| (*fluid, OnceLock::new()))
@@ -85,10 +93,24 @@ impl Mobility {
         crossing.get_or_init(|| self.immersion(fluid)).as_ref()
     }
 
+    /// In the fluid around all, for bodies far away.
+    pub(crate) fn coarse(&self) -> &Stepper {
+        let made = self.coarse.get_or_init(|| {
+            let motion = Settings {
+                longest_part: COARSE.max(self.settings.motion.longest_part),
+                ..self.settings.motion
+            };
+            let body = self.bake.body.scaled(self.scale);
+            let history = self.bake.history.as_ref();
+            Stepper::new(&body, &self.settings.fluid, history, &motion).ok()
+        });
+        // With settings that are as good as those of the other, it is always made.
+        made.as_ref().unwrap_or(&self.open)
+    }
+
     fn immersion(&self, fluid: &Fluid) -> Option<Arc<Immersion>> {
-        let (bake, scale) = self.matter.as_ref()?;
-        let history: Option<&TurbulenceHistory> = bake.history.as_ref();
-        let body = bake.body.scaled(*scale);
+        let history = self.bake.history.as_ref();
+        let body = self.bake.body.scaled(self.scale);
         let ambient = &self.settings.fluid;
         let motion = &self.settings.motion;
         Immersion::new(&body, (ambient, history), (fluid, history), motion)
@@ -107,6 +129,8 @@ impl Mobility {
 #[derive(Resource, Default)]
 pub(crate) struct Steppers {
     made: HashMap<(AssetId<BakedBody>, u32), Option<Arc<Mobility>>>,
+    /// What they are made of, once for all sizes.
+    bakes: HashMap<AssetId<BakedBody>, Arc<Bake>>,
     /// The fluids that they can enter.
     fluids: Vec<Fluid>,
 }
@@ -139,7 +163,9 @@ impl Steppers {
             entry.insert(None);
             return Outcome::Failed;
         };
-        let made = Mobility::new(body, shape.scale, settings, &self.fluids, name()).inspect_err(
+        let bake = self.bakes.entry(shape.body.id());
+        let bake = bake.or_insert_with(|| Arc::new(body.bake.clone()));
+        let made = Mobility::new(bake, shape.scale, settings, &self.fluids, name()).inspect_err(
             |error| {
                 error!(
                     "{} cannot move in this fluid: {error}. Its entities fall plainly, as in no fluid",
@@ -173,7 +199,10 @@ pub(crate) fn renew(
     for event in events.read() {
         match event {
             AssetEvent::Modified { .. } => changed = true,
-            AssetEvent::Removed { id } => steppers.made.retain(|(body, _), _| body != id),
+            AssetEvent::Removed { id } => {
+                steppers.made.retain(|(body, _), _| body != id);
+                steppers.bakes.remove(id);
+            }
             _ => {}
         }
     }
@@ -181,6 +210,7 @@ pub(crate) fn renew(
         return;
     }
     steppers.made.clear();
+    steppers.bakes.clear();
     steppers.fluids.clone_from(&around.fluids);
     for mut stepped in &mut stepped {
         let Some(shape) = &stepped.shape else {
