@@ -15,10 +15,12 @@ pub(crate) fn draw(
     mut bodies: Query<(&mut Stepped, &mut Transform), (Without<ChildOf>, Without<Quarantined>)>,
 ) {
     let fraction = time.overstep_fraction_f64();
-    for (mut stepped, mut transform) in &mut bodies {
-        stepped.follow(&transform);
-        if stepped.fault.is_none() {
-            stepped.draw(fraction, &mut transform);
-        }
-    }
+    bodies
+        .par_iter_mut()
+        .for_each(|(mut stepped, mut transform)| {
+            stepped.follow(&transform);
+            if stepped.fault.is_none() {
+                stepped.draw(fraction, &mut transform);
+            }
+        });
 }
