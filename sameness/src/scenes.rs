@@ -71,7 +71,7 @@ fn of_scene(scene: Scene) -> Result<[Line; 3], Box<dyn Error>> {
     let prepared = Prepared::new(scene, None, &())?;
 
     let mut bake = Fnv::default();
-    // What it was made from names the features of the build, of which no bit depends.
+    // What it was made from counts the sources in, which change without a bit of the body.
     let made = Bake {
         fingerprint: [0; 32],
         ..prepared.baked().bake.clone()
