@@ -428,14 +428,13 @@ impl<F: Symmetry, R: Real> Kirchhoff<F, R> {
         let start = matrix_of(motion.orientation);
         let loads = statics.seen_from(&start);
         let (half, third, sixth) = (h * h.of(0.5), h * h.of(1.0 / 3.0), h * h.of(1.0 / 6.0));
-        let k1 = self.first_rate(&motion.xi, &loads, &load);
-        let k2 = self.rate(&Increment::new(momentum, half, &k1), &loads, &load);
-        let k3 = self.rate(&Increment::new(momentum, half, &k2), &loads, &load);
-        let k4 = self.rate(&Increment::new(momentum, h, &k3), &loads, &load);
-        let end = Increment::new(momentum, sixth, &k1)
-            .plus(third, &k2)
-            .plus(third, &k3)
-            .plus(sixth, &k4);
+        let mut rate = self.first_rate(&motion.xi, &loads, &load);
+        let mut end = Increment::new(momentum, sixth, &rate);
+        // A loop, for a load that is compiled once and not three times.
+        for (ahead, share) in [(half, third), (half, third), (h, sixth)] {
+            rate = self.rate(&Increment::new(momentum, ahead, &rate), &loads, &load);
+            end = end.plus(share, &rate);
+        }
 
         let turned = turn(end.theta);
         let before = *motion;

@@ -50,6 +50,7 @@ impl Plugin for LangevinRigidPlugin {
             .register_type::<crate::LinearVelocity>()
             .register_type::<crate::AngularVelocity>()
             .register_type::<crate::ExternalWrench>()
+            .register_type::<crate::Hosted>()
             .register_type::<crate::Quarantined>()
             .configure_sets(FixedUpdate, (Join, Read, Step, Write).chain())
             .configure_sets(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy_ecs::component::Component;
 use bevy_math::{DQuat, DVec3, Quat, Vec3};
 use bevy_transform::components::Transform;
-use langevin_rigid::{Input, State, Stepper};
+use langevin_rigid::{FreeFlight, Input, State, Stepper};
 
 use crate::components::{AngularVelocity, LinearVelocity};
 use crate::plain_fall::fall;
@@ -80,6 +80,29 @@ impl Stepped {
     /// joins.
     pub fn state(&self) -> &State {
         &self.current
+    }
+
+    /// The body in its fluid; none for one that [falls plainly](Stepped::falls_plainly).
+    pub fn stepper(&self) -> Option<&Arc<Stepper>> {
+        match &self.mover {
+            Mover::Immersed(stepper) => Some(stepper),
+            Mover::Plain => None,
+        }
+    }
+
+    /// Centre of mass in the frame of the mesh, before it is scaled (m).
+    pub fn centre_of_mass(&self) -> DVec3 {
+        self.centre_of_mass
+    }
+
+    /// The last fixed step, of `dt` (s), as velocities for a physics engine.
+    pub fn flight(&self, dt: f64) -> FreeFlight {
+        FreeFlight::between(&self.previous, &self.current, dt)
+    }
+
+    /// Puts a body that is [`Hosted`](crate::Hosted) where its engine has moved it.
+    pub fn set_state(&mut self, state: State) {
+        self.current = state;
     }
 
     /// Whether the body falls plainly, as in no fluid, since it could not be made.

@@ -10,7 +10,9 @@ use bevy_transform::components::Transform;
 use langevin_rigid::{Flow, Input, NoiseStream, Wrench};
 
 use crate::ambient::{AmbientWind, ImmersionSettings};
-use crate::components::{AngularVelocity, ExternalWrench, Immersed, LinearVelocity, Quarantined};
+use crate::components::{
+    AngularVelocity, ExternalWrench, Hosted, Immersed, LinearVelocity, Quarantined,
+};
 use crate::stepped::Stepped;
 
 /// Stops bodies that were given a parent: it moves them from now on.
@@ -34,7 +36,7 @@ pub(crate) fn come_to_rest_in_hand(
 pub(crate) fn read(
     mut bodies: Query<
         (&mut Stepped, &Transform, &LinearVelocity, &AngularVelocity),
-        (Without<ChildOf>, Without<Quarantined>),
+        (Without<ChildOf>, Without<Quarantined>, Without<Hosted>),
     >,
 ) {
     for (mut stepped, transform, velocity, angular_velocity) in &mut bodies {
@@ -49,7 +51,7 @@ pub(crate) fn step(
     settings: Res<ImmersionSettings>,
     wind: Res<AmbientWind>,
     mut bodies: Query<
-        (&mut Stepped, &Immersed, &ExternalWrench),
+        (&mut Stepped, &Immersed, &ExternalWrench, Option<&Hosted>),
         (Without<ChildOf>, Without<Quarantined>),
     >,
 ) {
@@ -57,8 +59,8 @@ pub(crate) fn step(
     let start = time.elapsed_secs_f64() - dt;
     bodies
         .par_iter_mut()
-        .for_each(|(mut stepped, immersed, wrench)| {
-            if stepped.fault.is_some() {
+        .for_each(|(mut stepped, immersed, wrench, hosted)| {
+            if stepped.fault.is_some() || hosted.is_some_and(|hosted| hosted.asleep) {
                 return;
             }
             let input = Input {
