@@ -44,7 +44,8 @@
 //!    [`TriMesh::from_sheet`] gives an open sheet a thickness; [`shapes`] makes leaves, coins, maple seeds and others;
 //!    the crate `langevin-rigid-formats` reads files.
 //! 2. [`mesh::survey()`] lists what is wrong with a mesh that is refused, and [`mesh::repair()`] mends it; where nothing
-//!    else helps it [wraps](mesh::Options::wrap) the mesh. [`TriMesh::proxy`] simplifies one that is too fine.
+//!    else helps it [wraps](mesh::Options::wrap) the mesh; [`check::check`] finds the repair. [`TriMesh::proxy`] simplifies a
+//!    mesh that is too fine.
 //! 3. [`body::bake_body`] does the rest: mass properties, added mass, drag areas and slices for separated flow.
 //! 4. [`turbulence::turbulence_history`] adds the turbulence that the body meets, for the turbulence sources that sample it.
 //!
@@ -58,6 +59,7 @@
 //! - [`extents`]: characteristic sizes.
 //! - [`turbulence`]: the k-epsilon model on a MAC grid.
 //! - [`body`]: all of it for one body.
+//! - [`check`](mod@check): all of what is to know of a mesh before that, and the repair that mends it.
 //! - [`progress`]: how a long computation reports its progress, and how it is cancelled.
 //!
 //! # Conventions
@@ -81,6 +83,7 @@
 pub mod added_mass;
 mod axes;
 pub mod body;
+pub mod check;
 pub mod extents;
 pub mod mass_properties;
 pub mod mesh;

@@ -222,7 +222,7 @@ fn random_fans_stars_and_needles_give_tensors() {
         prop::collection::vec(0.0..1.0f64, 150),
     );
     let config = Config {
-        cases: 12,
+        cases: 6,
         failure_persistence: None,
         ..Config::default()
     };
@@ -246,7 +246,7 @@ fn random_tetrahedra_of_any_size_give_tensors_or_say_why() {
     let coordinate = || (-30.0..30.0f64, any::<bool>());
     let corners = prop::collection::vec([coordinate(), coordinate(), coordinate()], 4);
     let config = Config {
-        cases: 30,
+        cases: 15,
         failure_persistence: None,
         ..Config::default()
     };

@@ -24,9 +24,6 @@ use crate::{cache, forecast, say};
 
 /// Where falls are kept until all have ended.
 const JOURNAL: &str = "falls.journal";
-/// What the Parquet file says of itself.
-#[cfg(feature = "parquet")]
-const ABOUT: &str = "landings of an ensemble; SI units and degrees; x, z and depth from the release point of the scene";
 
 /// `statistics.json`; SI units.
 #[derive(Debug, Serialize)]
@@ -157,7 +154,7 @@ fn write_all(folder: &Path, prepared: &Prepared, falls: &[Fall], report: &Report
     files::write(&folder.join("landings.csv"), landings.csv().as_bytes())?;
     #[cfg(feature = "parquet")]
     files::write_with(&folder.join("landings.parquet"), |out| {
-        landings.write_parquet(ABOUT, out)
+        landings.write_parquet(ensemble::LANDINGS_ABOUT, out)
     })?;
     let scene = resolved(prepared.scene())?;
     files::write(&folder.join("scene.toml"), scene.as_bytes())?;

@@ -3,11 +3,11 @@
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use langevin_rigid_formats::budget::Need;
 use langevin_rigid_formats::files::Claim;
+use langevin_rigid_report::Options;
 use langevin_rigid_report::pages::{self, Computed};
-use langevin_rigid_report::{Options, PARTS, Part};
 use langevin_rigid_scenes::baking::cache_folder;
 
 use crate::arguments::Reproduce;
@@ -18,15 +18,7 @@ use crate::{forecast, say};
 const SEED: [f64; 2] = [500.0, 1e4];
 
 pub(crate) fn reproduce(options: &Reproduce, bars: &Bars) -> Result<()> {
-    // The order of the page, whatever the order asked for; each part once.
-    let wanted = |part: &&Part| options.only.is_empty() || options.only.contains(part);
-    let plan = Options {
-        parts: PARTS.iter().filter(wanted).copied().collect(),
-        seeds: options.seeds,
-        first_seed: options.seed,
-        cache: cache_folder(),
-    };
-    check(options)?;
+    let plan = plan(options)?;
     if let Some(manual) = &options.update {
         pages::list(manual)?;
     }
@@ -64,14 +56,12 @@ pub(crate) fn update(manual: &Path, computed: &[Computed]) -> Result<()> {
     Ok(())
 }
 
-fn check(options: &Reproduce) -> Result<()> {
+fn plan(options: &Reproduce) -> Result<Options> {
     let (seeds, first) = (options.seeds, options.seed);
-    if first.checked_add(u64::from(seeds) - 1).is_none() {
-        anyhow::bail!(
-            "there are no {seeds} seeds from `--seed {first}` on: the largest is {}; begin lower",
-            u64::MAX
-        );
-    }
+    let parts = (!options.only.is_empty()).then_some(options.only.as_slice());
+    let plan = Options::new(parts, seeds, first, cache_folder())
+        .with_context(|| format!("`--seeds {seeds} --seed {first}`"))?;
     let [steps, bytes] = SEED.map(|each| f64::from(seeds) * each);
-    forecast::check(Need::new(bytes, steps), &format!("`--seeds {seeds}`"))
+    forecast::check(Need::new(bytes, steps), &format!("`--seeds {seeds}`"))?;
+    Ok(plan)
 }

@@ -46,6 +46,8 @@ pub enum Values {
     Large(Vec<u64>),
     /// Words.
     Words(Vec<Cow<'static, str>>),
+    /// Lists of numbers, each of any length.
+    Lists(Vec<Vec<f64>>),
 }
 
 impl Values {
@@ -57,6 +59,7 @@ impl Values {
             Self::Counts(values) => values.len(),
             Self::Large(values) => values.len(),
             Self::Words(values) => values.len(),
+            Self::Lists(values) => values.len(),
         }
     }
 
@@ -73,6 +76,7 @@ impl Values {
             Self::Counts(values) => write!(line, "{}", values[row]),
             Self::Large(values) => write!(line, "{}", values[row]),
             Self::Words(values) => write!(line, "{}", word(&values[row])),
+            Self::Lists(values) => write!(line, "{}", word(&format!("{:?}", values[row]))),
         };
     }
 }
@@ -143,6 +147,7 @@ impl Table {
                 (Values::Counts(values), Values::Counts(more)) => values.extend(more),
                 (Values::Large(values), Values::Large(more)) => values.extend(more),
                 (Values::Words(values), Values::Words(more)) => values.extend(more),
+                (Values::Lists(values), Values::Lists(more)) => values.extend(more),
                 // Kinds were compared.
                 _ => {}
             }
@@ -150,7 +155,7 @@ impl Table {
     }
 
     /// Comma-separated values under the names. Numbers have as many digits as it takes to read back the same bits; a missing
-    /// one is empty.
+    /// one is empty, and a list is in brackets within quotes.
     pub fn csv(&self) -> String {
         let names = self.columns.iter().map(|column| word(&column.name));
         let names: Vec<Cow<'_, str>> = names.collect();
@@ -175,7 +180,7 @@ impl Table {
     /// Those of `out`.
     #[cfg(feature = "parquet")]
     pub fn write_parquet(&self, about: &str, out: impl io::Write + Send) -> io::Result<()> {
-        parquet::write(std::iter::once(self.clone()), about, out)
+        parquet::write(std::iter::once(self), about, out)
     }
 }
 
@@ -204,6 +209,15 @@ mod tests {
     fn words_that_csv_would_split_are_quoted() {
         let csv = table("a,b", &["plain", "say \"no\"", "two\nlines"]).csv();
         assert_eq!(csv, "\"a,b\"\nplain\n\"say \"\"no\"\"\"\n\"two\nlines\"\n");
+    }
+
+    #[test]
+    fn lists_are_one_value_of_csv() {
+        let table = Table::new(vec![Column {
+            name: "a".into(),
+            values: Values::Lists(vec![vec![0.1, -2.0], vec![], vec![3.0]]),
+        }]);
+        assert_eq!(table.csv(), "a\n\"[0.1, -2.0]\"\n[]\n[3.0]\n");
     }
 
     #[test]

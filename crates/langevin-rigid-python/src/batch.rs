@@ -95,12 +95,6 @@ impl Acting {
 }
 
 impl Batch {
-    fn states_of(&self) -> Vec<RunTimeState> {
-        (0..self.batch.len())
-            .filter_map(|body| self.batch.state(body))
-            .collect()
-    }
-
     fn place(&self, body: i64) -> PyResult<usize> {
         let count = self.batch.len();
         let place = if body < 0 { body + count as i64 } else { body };
@@ -334,37 +328,38 @@ impl Batch {
 
     /// The states of all, as they are now.
     fn states(&self) -> States {
-        States(self.states_of())
+        let bodies = 0..self.batch.len();
+        States(bodies.filter_map(|body| self.batch.state(body)).collect())
     }
 
     /// Centres of mass, world frame (n, 3), m.
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.rows(py, |state| state.position)
+        self.states().positions(py)
     }
 
     /// Unit quaternions x, y, z, w from the body to the world (n, 4).
     #[getter]
     fn orientations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.rows(py, |state| state.orientation)
+        self.states().orientations(py)
     }
 
     /// Velocities, body frame (n, 3), m/s.
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.rows(py, |state| state.velocity)
+        self.states().velocities(py)
     }
 
     /// Angular velocities, body frame (n, 3), rad/s.
     #[getter]
     fn angular_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.rows(py, |state| state.angular_velocity)
+        self.states().angular_velocities(py)
     }
 
     /// Velocities, world frame (n, 3), m/s.
     #[getter]
     fn world_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.rows(py, RunTimeState::world_velocity)
+        self.states().world_velocities(py)
     }
 
     /// Angular velocities, world frame (n, 3), rad/s.
@@ -373,16 +368,13 @@ impl Batch {
         &self,
         py: Python<'py>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.rows(py, RunTimeState::world_angular_velocity)
+        self.states().world_angular_velocities(py)
     }
 
     /// Times since release (n,), s.
     #[getter]
     fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        arrays::of_column(
-            py,
-            self.states_of().iter().map(|state| state.time).collect(),
-        )
+        self.states().times(py)
     }
 
     /// Seed of the noise.
@@ -401,15 +393,6 @@ impl Batch {
 }
 
 impl Batch {
-    fn rows<'py, const N: usize>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&RunTimeState) -> [f64; N],
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<[f64; N]> = self.states_of().iter().map(of).collect();
-        arrays::of_rows(py, &rows)
-    }
-
     /// Puts the bodies in these places into these poses and motions, all of them or none.
     fn put(
         &mut self,

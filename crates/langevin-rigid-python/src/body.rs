@@ -4,9 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use langevin_rigid::{Bake, Body as RunTimeBody, BodyError};
-use langevin_rigid_bake::added_mass::Warning;
-use langevin_rigid_bake::body::{BodySpec, bake_body};
+use langevin_rigid_bake::body::BodySpec;
 use langevin_rigid_bake::mass_properties::{Ballast, Region};
+use langevin_rigid_scenes::baking::bake_mesh;
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -184,26 +184,8 @@ impl Body {
         };
         let mesh = Mesh::of_argument(mesh)?;
         let solid = mesh.get().body(py)?;
-        let baked = interruptible(py, |wanted| bake_body(&solid, &spec, wanted))?;
-        let (body, added_mass) = baked.or_raise()?;
-        // The small added mass along a thin sheet hardly matters to how it moves, whatever its accuracy.
-        let matters = |w: &&Warning| !matches!(w, Warning::ThinnerThanTriangles { .. });
-        let mut warnings: Vec<String> = added_mass
-            .warnings
-            .iter()
-            .filter(matters)
-            .map(ToString::to_string)
-            .collect();
-        if solid.was_turned() {
-            warnings.push("the mesh was inside out; its triangles were turned".into());
-        }
-        Ok(Self::of(Bake {
-            body,
-            history: None,
-            error_estimate: added_mass.error_estimate,
-            warnings,
-            fingerprint: [0; 32],
-        }))
+        let bake = interruptible(py, |wanted| bake_mesh(&solid, &spec, wanted))?;
+        Ok(Self::of(bake.or_raise()?))
     }
 
     /// The body of a bake file, such as the command's `bake` writes.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use langevin_rigid_scenes::ensemble::{
-    Fall, Journal, Statistics, landings, run as run_all, run_with,
+    Fall, Journal, LANDINGS_ABOUT, Statistics, landings, run as run_all, run_with,
 };
 use langevin_rigid_scenes::prepared::Prepared;
 use numpy::PyArray2;
@@ -18,9 +18,6 @@ use crate::interrupt::interruptible;
 use crate::run::to_python;
 use crate::scene::{Cache, Scene, prepare};
 use crate::table::Table;
-
-/// What a Parquet file of landings says of itself.
-pub(crate) const ABOUT: &str = "landings of an ensemble; SI units and degrees; x, z and depth from the release point of the scene";
 
 /// Many falls of one scene.
 #[pyclass(frozen, module = "langevin_rigid")]
@@ -36,7 +33,7 @@ impl Ensemble {
     fn landings(&self) -> Table {
         Table {
             columns: landings(&self.prepared, &self.falls),
-            about: ABOUT,
+            about: LANDINGS_ABOUT,
         }
     }
 

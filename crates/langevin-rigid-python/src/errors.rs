@@ -25,6 +25,7 @@ pyo3::import_exception!(langevin_rigid.errors, BakeError);
 pyo3::import_exception!(langevin_rigid.errors, SceneError);
 pyo3::import_exception!(langevin_rigid.errors, SetupError);
 pyo3::import_exception!(langevin_rigid.errors, StepError);
+pyo3::import_exception!(langevin_rigid.errors, LangevinRigidWarning);
 
 /// What Python is to raise for an error of the libraries.
 pub(crate) trait Raised {

@@ -14,6 +14,7 @@ mod arrays;
 mod batch;
 mod body;
 mod check;
+mod crowd;
 mod direct;
 mod ensemble;
 mod errors;
@@ -34,6 +35,7 @@ mod sweep;
 mod table;
 mod threads;
 mod turbulence;
+mod warnings;
 mod wind;
 
 #[pymodule]
@@ -57,11 +59,13 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<scene::Scene>()?;
     module.add_class::<run::Run>()?;
     module.add_class::<ensemble::Ensemble>()?;
+    module.add_class::<crowd::Crowd>()?;
     module.add_class::<table::Table>()?;
     module.add_class::<regimes::Regimes>()?;
     module.add_class::<direct::Directed>()?;
     module.add_function(wrap_pyfunction!(regimes::regimes, module)?)?;
     module.add_function(wrap_pyfunction!(direct::direct, module)?)?;
+    module.add_function(wrap_pyfunction!(crowd::crowd, module)?)?;
     module.add_function(wrap_pyfunction!(run::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(reproduce::reproduce, module)?)?;
     module.add_function(wrap_pyfunction!(ensemble::ensemble, module)?)?;

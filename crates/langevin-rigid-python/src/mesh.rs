@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::errors::{BakeError, MeshError, OrRaise};
+use crate::warnings::warn;
 use crate::{arrays, files, shapes, threads};
 
 /// Triangles over vertices, as they come: a closed body or something that is none yet.
@@ -80,7 +81,8 @@ impl Mesh {
         Ok(py.detach(|| self.body.get_or_init(find)))
     }
 
-    /// The mesh of an argument that may also be a path, in metres where its format has no unit.
+    /// The mesh of an argument that may also be a path, in metres where its format has no unit. What the reader of a path
+    /// passed over is warned of, as the caller does not see that mesh.
     pub(crate) fn of_argument<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Mesh>> {
         if let Ok(mesh) = given.cast::<Mesh>() {
             return Ok(mesh.clone());
@@ -90,6 +92,9 @@ impl Mesh {
             Ok(path) => Mesh::read(py, path, None)?,
             Err(_) => Mesh::of(given)?,
         };
+        for notice in &mesh.raw.notices {
+            warn(py, &format!("{}: {notice}", mesh.name))?;
+        }
         Bound::new(py, mesh)
     }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use langevin_rigid_formats::files::Claim;
-use langevin_rigid_report::{Options, PARTS, Part, ReportError, reproduce as report};
+use langevin_rigid_report::{Options, OptionsError, Part, ReportError, reproduce as report};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -17,6 +17,12 @@ impl Raised for ReportError {
             ReportError::Write(error) => error.raised(),
             error => LangevinRigidError::new_err(error.to_string()),
         }
+    }
+}
+
+impl Raised for OptionsError {
+    fn raised(self) -> PyErr {
+        PyValueError::new_err(self.to_string())
     }
 }
 
@@ -38,32 +44,12 @@ pub(crate) fn reproduce(
     seed: u64,
     cache: Cache,
 ) -> PyResult<PathBuf> {
-    if seeds == 0 {
-        return Err(PyValueError::new_err("seeds is 0; at least one is needed"));
-    }
-    if seed.checked_add(u64::from(seeds) - 1).is_none() {
-        return Err(PyValueError::new_err(format!(
-            "there are no {seeds} seeds from {seed} on: the largest is {}; begin lower",
-            u64::MAX
-        )));
-    }
-    let wanted = match parts {
-        None => PARTS.to_vec(),
-        Some(names) => {
-            let named = names.iter().map(|name| Part::named(name).or_raise());
-            named.collect::<PyResult<Vec<Part>>>()?
-        }
-    };
-    let options = Options {
-        parts: PARTS
-            .iter()
-            .filter(|part| wanted.contains(part))
-            .copied()
-            .collect(),
-        seeds,
-        first_seed: seed,
-        cache: cache.folder(),
-    };
+    let parts = parts.map(|names| {
+        let named = names.iter().map(|name| Part::named(name).or_raise());
+        named.collect::<PyResult<Vec<Part>>>()
+    });
+    let parts = parts.transpose()?;
+    let options = Options::new(parts.as_deref(), seeds, seed, cache.folder()).or_raise()?;
     let _claim = Claim::folder(&folder).or_raise()?;
     let made = interruptible(py, |wanted| report(&options, &folder, wanted))?;
     Ok(made.or_raise()?.page)

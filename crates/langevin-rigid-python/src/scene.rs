@@ -14,6 +14,7 @@ use toml::{Table, Value};
 use crate::body::Body;
 use crate::errors::{OrRaise, SceneError};
 use crate::interrupt::{Wanted, interruptible};
+use crate::warnings::warn_of_bake;
 
 /// What to simulate: a body, a fluid, a release and a run, checked and complete. See docs/scenes.md for all that it may say.
 ///
@@ -166,7 +167,9 @@ impl Scene {
         let baked = interruptible(py, |wanted| {
             bake_scene(&self.scene, cache.folder().as_deref(), wanted)
         })?;
-        Ok(Body::of(baked.or_raise()?.bake))
+        let baked = baked.or_raise()?;
+        warn_of_bake(py, &baked)?;
+        Ok(Body::of(baked.bake))
     }
 
     fn __repr__(&self) -> String {
@@ -236,12 +239,16 @@ impl Cache {
     }
 }
 
-/// A scene made ready.
+/// A scene made ready, with warnings of what happened to its bakes.
 pub(crate) fn prepare(py: Python<'_>, scene: Described, cache: &Cache) -> PyResult<Arc<Prepared>> {
     let prepared = interruptible(py, |wanted: &Wanted| -> Result<Prepared, PrepareError> {
         Prepared::new(scene, cache.folder().as_deref(), wanted)
     })?;
-    Ok(Arc::new(prepared.or_raise()?))
+    let prepared = prepared.or_raise()?;
+    for (_, baked) in prepared.kinds() {
+        warn_of_bake(py, baked)?;
+    }
+    Ok(Arc::new(prepared))
 }
 
 /// Sets a value by its name with dots, or takes it away.

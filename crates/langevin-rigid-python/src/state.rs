@@ -281,7 +281,7 @@ impl States {
 impl States {
     /// Times since release (n,), s.
     #[getter]
-    fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    pub(crate) fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         arrays::of_column(py, self.0.iter().map(|state| state.time).collect())
     }
 
@@ -293,37 +293,43 @@ impl States {
 
     /// Centres of mass, world frame (n, 3), m.
     #[getter]
-    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    pub(crate) fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.rows(py, |state| state.position)
     }
 
     /// Unit quaternions x, y, z, w from the body to the world (n, 4).
     #[getter]
-    fn orientations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    pub(crate) fn orientations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.rows(py, |state| state.orientation)
     }
 
     /// Velocities, body frame (n, 3), m/s.
     #[getter]
-    fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    pub(crate) fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.rows(py, |state| state.velocity)
     }
 
     /// Angular velocities, body frame (n, 3), rad/s.
     #[getter]
-    fn angular_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    pub(crate) fn angular_velocities<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.rows(py, |state| state.angular_velocity)
     }
 
     /// Velocities, world frame (n, 3), m/s.
     #[getter]
-    fn world_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    pub(crate) fn world_velocities<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.rows(py, RunTimeState::world_velocity)
     }
 
     /// Angular velocities, world frame (n, 3), rad/s.
     #[getter]
-    fn world_angular_velocities<'py>(
+    pub(crate) fn world_angular_velocities<'py>(
         &self,
         py: Python<'py>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {

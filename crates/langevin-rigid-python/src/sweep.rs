@@ -3,14 +3,23 @@
 use std::path::PathBuf;
 
 use langevin_rigid_formats::files::write_with;
-use langevin_rigid_scenes::sweep::{Parameter, Piece, part};
+use langevin_rigid_scenes::ensemble::LANDINGS_ABOUT;
+use langevin_rigid_scenes::sweep::{Parameter, Piece, SweepError, part};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyString};
 
-use crate::ensemble::ABOUT;
-use crate::errors::OrRaise;
+use crate::errors::{OrRaise, Raised, SceneError};
 use crate::interrupt::interruptible;
 use crate::scene::{Cache, Scene};
+
+impl Raised for SweepError {
+    fn raised(self) -> PyErr {
+        match self {
+            SweepError::Prepare(error) => error.raised(),
+            error => SceneError::new_err(error.to_string()),
+        }
+    }
+}
 
 /// Some runs of a point: its number, its scene, its parameters, and the first run and the one after the last.
 type Given<'py> = (u32, Bound<'py, PyAny>, Bound<'py, PyDict>, u32, u32);
@@ -48,13 +57,17 @@ pub(crate) fn _sweep_part(
     })??;
     // Cancelled work ended by its signal.
     let Some(table) = table else { return Ok(()) };
-    py.detach(|| write_with(&path, |out| table.write_parquet(ABOUT, out)))
+    py.detach(|| write_with(&path, |out| table.write_parquet(LANDINGS_ABOUT, out)))
         .or_raise()
 }
 
+/// A number, a list of numbers, or a word.
 fn parameter(value: &Bound<'_, PyAny>) -> PyResult<Parameter> {
+    if let Ok(word) = value.cast::<PyString>() {
+        return Ok(Parameter::Word(word.extract()?));
+    }
     match value.extract::<f64>() {
         Ok(number) => Ok(Parameter::Number(number)),
-        Err(_) => Ok(Parameter::Word(value.str()?.extract()?)),
+        Err(_) => Ok(Parameter::List(value.extract()?)),
     }
 }

@@ -13,7 +13,7 @@ use crate::errors::OrRaise;
 use crate::files;
 
 /// Named columns of equal length, each an array (n,): `dict(table)` and `pandas.DataFrame(dict(table))` take it as it is. What
-/// is missing is NaN.
+/// is missing is NaN, and of a column of lists each value is an array.
 #[pyclass(frozen, module = "langevin_rigid", mapping)]
 pub(crate) struct Table {
     pub(crate) columns: Columns,
@@ -99,6 +99,16 @@ fn array<'py>(py: Python<'py>, column: &Column) -> PyResult<Bound<'py, PyAny>> {
         Values::Words(values) => {
             let words: Vec<&str> = values.iter().map(AsRef::as_ref).collect();
             py.import("numpy")?.call_method1("array", (words,))?
+        }
+        Values::Lists(lists) => {
+            // NumPy would make one array of lists of one length.
+            let objects = py
+                .import("numpy")?
+                .call_method1("empty", (lists.len(), "O"))?;
+            for (row, list) in lists.iter().enumerate() {
+                objects.set_item(row, PyArray1::from_slice(py, list))?;
+            }
+            objects
         }
         _ => py.None().into_bound(py),
     })

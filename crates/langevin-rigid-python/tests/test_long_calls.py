@@ -18,17 +18,20 @@ def long_calls():
     plate = lr.Body.plate(length=0.08, width=0.05, thickness=2e-4, density=450.0)
     stepper = lr.Stepper(plate, lr.Fluid.air())
     ball = fine_ball()
+    # Its bake is kept for the call.
+    lr.Scene.find("paper-75").bake()
     return {
         "added_mass": lambda: lr.added_mass(ball),
         "bake": lambda: lr.Body.bake(ball, density=500.0),
         "turbulence": lambda: lr.turbulence(inflow_speed=1.0, cell=0.01, cells=(64, 64, 64), duration=1e3),
         "steps": lambda: stepper.steps(lr.State(), 1e-3, 1_000_000_000, every=1_000_000),
+        "crowd": lambda: lr.crowd("paper-75", 5000, seconds=600.0),
         "batch": lambda: lr.Batch(stepper, count=5000).step(1e-3, n=1_000_000),
     }
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="sends itself a signal by a timer of Unix")
-@pytest.mark.parametrize("name", ["added_mass", "bake", "turbulence", "steps", "batch"])
+@pytest.mark.parametrize("name", ["added_mass", "bake", "turbulence", "steps", "batch", "crowd"])
 def test_ctrl_c_ends_a_long_call(name):
     call = long_calls()[name]
 

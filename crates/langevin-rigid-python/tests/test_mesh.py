@@ -92,6 +92,44 @@ def test_a_sound_mesh_is_ready(cube):
     assert result and result.ready and result.findings == []
     assert result.volume == pytest.approx(1e-3, rel=1e-12)
     assert 0 < result.expected_error < 0.1 and result.expected_seconds > 0
+    assert result.repair is result.repair_of_sheet is result.left is None and result.repair_steps == []
+
+
+def test_what_a_check_proposes_mends():
+    def proposed(mesh):
+        result = lr.check(mesh)
+        assert not result.ready
+        return result, lr.repair(mesh, **result.repair)
+
+    cube = lr.Mesh.shape("box", size=[0.1, 0.1, 0.1], triangles=300)
+    result, mended = proposed(lr.Mesh(cube.vertices, cube.triangles[1:]))
+    assert result.repair == {} and result.repair_of_sheet is None
+    assert result.repair_steps == mended.steps and result.repair_warnings == mended.warnings
+    assert result.expected_error == pytest.approx(lr.check(mended.mesh).expected_error)
+    # A box without its lid is a solid with a wide hole, or a sheet.
+    box = lr.Mesh.shape("box", size=[0.1, 0.05, 0.1], triangles=12)
+    lid = (box.vertices[box.triangles][:, :, 1] > 0.02).all(axis=1)
+    tray = lr.Mesh(box.vertices, box.triangles[~lid])
+    result, mended = proposed(tray)
+    assert result.repair == {"fill": result.holes[0]}
+    assert mended.mesh.volume == pytest.approx(5e-4)
+    assert result.repair_warnings == mended.warnings and result.repair_warnings
+    sheet = lr.repair(tray, **result.repair_of_sheet | {"thickness": 1e-3}).mesh
+    assert sheet.volume < 1e-4
+    # A speck beside the body, which no repair closes.
+    speck = 1.0 + 1e-3 * np.array([[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]])
+    both = lr.Mesh(
+        np.vstack([cube.vertices, speck]),
+        np.vstack([cube.triangles, np.array([[0, 2, 1], [0, 3, 2]]) + len(cube.vertices)]),
+    )
+    result, mended = proposed(both)
+    assert result.repair["largest"] and mended.mesh.volume == pytest.approx(1e-3)
+
+
+def test_a_check_says_what_no_repair_mends():
+    nothing = lr.check(lr.Mesh([[0, 0, 0], [0, 0, 0], [0, 0, 0]], [[0, 1, 2]]))
+    assert nothing.repair is None and nothing.repair_of_sheet is None and nothing.expected_error is None
+    assert nothing.left
 
 
 def test_repair_mends_and_tells_what_it_did(cube):
@@ -133,6 +171,18 @@ def test_files_are_written_and_read(cube, tmp_path):
     (tmp_path / "junk.stl").write_bytes(b"junk")
     with pytest.raises(lr.MeshError, match="junk.stl"):
         lr.Mesh.read(tmp_path / "junk.stl")
+
+
+def test_what_a_reader_passed_over_is_told(cube, tmp_path):
+    path = tmp_path / "cube.obj"
+    cube.save(path)
+    path.write_text("\ufeff" + path.read_text(), encoding="utf-8")
+    words = "passed over the byte order mark"
+    # Who reads the mesh has its notices; who names its file is warned.
+    assert words in lr.Mesh.read(path).notices[0]
+    for call in (lr.check, lr.repair, lr.added_mass, lambda mesh: lr.Body.bake(mesh, density=500.0)):
+        with pytest.warns(lr.LangevinRigidWarning, match=f"cube.obj: {words}"):
+            call(path)
 
 
 def test_shapes_have_the_names_and_dimensions_of_scenes():

@@ -66,6 +66,7 @@ def test_errors_are_of_one_family():
         error = getattr(lr, name)
         assert issubclass(error, lr.LangevinRigidError) and issubclass(error, ValueError)
     assert issubclass(lr.StepError, lr.LangevinRigidError)
+    assert issubclass(lr.LangevinRigidWarning, UserWarning)
 
 
 def test_what_is_printed_says_something(leaf, stepper, cube):

@@ -38,6 +38,40 @@ def test_a_scene_file_and_its_mesh_are_found_from_anywhere(tmp_path, monkeypatch
     assert near.bake().volume == pytest.approx(found.bake().volume, rel=1e-12)
 
 
+def test_what_happened_to_a_bake_is_warned_of(tmp_path):
+    import warnings
+
+    # A folder cannot be made within a file.
+    (tmp_path / "file").write_text("")
+    nowhere = tmp_path / "file" / "bakes"
+    for call in (lambda: lr.simulate(BALL, cache=nowhere), lambda: lr.Scene.of(BALL).bake(cache=nowhere)):
+        with pytest.warns(lr.LangevinRigidWarning, match="the bake was not kept .*give a writable folder as `cache`"):
+            call()
+    # A kept bake that is damaged is not believed.
+    lr.simulate(BALL, cache=tmp_path / "bakes")
+    (kept,) = (tmp_path / "bakes").iterdir()
+    kept.write_bytes(kept.read_bytes()[:-9])
+    with pytest.warns(lr.LangevinRigidWarning, match="was not used .*; the body was baked anew") as told:
+        lr.ensemble(BALL, 2, cache=tmp_path / "bakes")
+    assert told[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        lr.ensemble(BALL, 2, cache=tmp_path / "bakes")
+        with pytest.raises(lr.LangevinRigidWarning, match="the kept bake .* was not used"):
+            lr.simulate(BALL, cache=nowhere)
+
+
+def test_what_is_told_of_any_body_of_a_crowd_is_warned_of(tmp_path):
+    lr.Mesh.shape("disc", radius=0.02, thickness=0.002, triangles=200).save(tmp_path / "disc.obj")
+    (tmp_path / "disc.obj").write_text("\ufeff" + (tmp_path / "disc.obj").read_text(), encoding="utf-8")
+    disc = lr.Scene.of({**BALL, "body": {"mesh": "disc.obj", "unit": "m", "mass": 0.01}})
+    (tmp_path / "disc.toml").write_text(disc.text)
+    crowd = {"count": 2, "over": [1.0, 0.5, 1.0], "kinds": [{"scene": str(tmp_path / "disc.toml")}]}
+    run = {"time_step": 0.002, "duration": 0.01}
+    with pytest.warns(lr.LangevinRigidWarning, match="passed over the byte order mark"):
+        lr.simulate({**BALL, "run": run, "crowd": crowd}, cache=False)
+
+
 @pytest.mark.parametrize(
     ("make", "error", "words"),
     [
@@ -197,6 +231,35 @@ def test_a_run_is_drawn_and_filmed(tmp_path):
     assert not (tmp_path / "none.png").exists()
 
 
+def test_a_crowd_counts_its_frames():
+    import time
+
+    started = time.monotonic()
+    crowd = lr.crowd(BALL, 50, seconds=0.2, model="kirchhoff")
+    # In real time: the last of 12 frames begins 11 after the first.
+    assert time.monotonic() - started > 11 / 60
+    assert (crowd.scene, crowd.model, crowd.bodies) == ("scene", "kirchhoff", 50)
+    assert len(crowd) == 12 and crowd.time_step == 0.002 and crowd.threads >= 1
+    assert (crowd.frame_times > 0).all()
+    assert crowd.missed_frames == (crowd.frame_times > 1 / 60).sum()
+    assert repr(crowd).startswith("<Crowd: 50 bodies of scene, 12 frames, ")
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (dict(bodies=0), "at least one"),
+        (dict(seconds=0.0), "the time is 0 s; it must be a positive number"),
+        (dict(seconds=float("nan")), "the time is NaN s"),
+        (dict(model="kirchoff"), "did you mean `kirchhoff`"),
+        (dict(bodies=4_000_000_000), "4000000000 bodies for 10.0 s would take"),
+    ],
+)
+def test_a_crowd_that_cannot_be_is_refused(given, words):
+    with pytest.raises(ValueError, match=words):
+        lr.crowd(BALL, **given)
+
+
 def test_the_paper_is_reproduced(tmp_path):
     page = lr.reproduce(tmp_path / "report", parts=["fig2"], seeds=1, cache=False)
     assert page == tmp_path / "report" / "report.html"
@@ -205,4 +268,8 @@ def test_the_paper_is_reproduced(tmp_path):
         lr.reproduce(tmp_path / "none", parts=["fig22"])
     with pytest.raises(ValueError, match="at least one"):
         lr.reproduce(tmp_path / "none", parts=["fig2"], seeds=0)
+    with pytest.raises(ValueError, match="there are no 2 seeds from 18446744073709551615 on"):
+        lr.reproduce(tmp_path / "none", parts=["fig2"], seeds=2, seed=2**64 - 1)
+    with pytest.raises(ValueError, match="no part is named"):
+        lr.reproduce(tmp_path / "none", parts=[])
     assert not (tmp_path / "none").exists()

@@ -7,6 +7,7 @@ import threading
 import time
 
 import langevin_rigid as lr
+import numpy as np
 import pytest
 
 BALL = {
@@ -39,6 +40,7 @@ def test_all_runs_are_there_once_with_their_parameters(alone):
         rows = table[table["point"] == point]
         assert (rows["body_density"] == values["body.density"]).all()
         assert (rows["height"] == values["scatter.height"][0]).all()
+        assert all(list(row) == values["scatter.height"] for row in rows["scatter_height"])
     # A denser ball sinks faster.
     times = points["t"].mean()
     assert times[0] > times[2] > times[4]
@@ -133,6 +135,35 @@ def test_a_mistake_shows_before_the_work(tmp_path, wrong, words):
     with pytest.raises(ValueError, match=words):
         lr.sweep(BALL, tmp_path / "data", workers=0, **{**WHOLE, **wrong})
     assert not (tmp_path / "data").exists()
+
+
+def test_parameters_are_told_as_what_they_are(tmp_path):
+    import pyarrow.parquet
+
+    parameters = {
+        "release.position": [[0, 1, 0], np.array([0.0, 2.0, 0.0])],
+        "scatter.size": [[1.0], [0.5, 1.0, 2.0]],
+        "scatter.velocity": [0.1, lr.normal([0.1, 0, 0], 0.01), [0.1, 0.2, 0.3]],
+        "body.density": np.array([2000, 3000]),
+        "run.model": ["separated", "kirchhoff"],
+    }
+    # Points of all kinds in one partition.
+    data = lr.sweep(BALL, tmp_path, workers=0, runs=2, parameters=parameters)
+    schema = pyarrow.parquet.read_schema(data.files[0])
+    kinds = {name: str(kind) for name, kind in zip(schema.names, schema.types)}
+    assert kinds["release_position"] == "list<element: double not null>"
+    assert kinds["scatter_size"] == "list<element: double not null>"
+    assert kinds["scatter_velocity"] == kinds["run_model"] == "string"
+    assert kinds["body_density"] == "double"
+    table = data.to_pandas()
+    for point in range(data.sweep.points):
+        rows, values = table[table["point"] == point], data.sweep.values(point)
+        assert len(rows) == 2
+        assert all(list(row) == list(values["release.position"]) for row in rows["release_position"])
+        assert all(list(row) == values["scatter.size"] for row in rows["scatter_size"])
+        assert (rows["scatter_velocity"] == str(values["scatter.velocity"])).all()
+        assert (rows["run_model"] == values["run.model"]).all()
+        assert (rows["height"] == values["release.position"][1]).all()
 
 
 def test_scenes_and_seeds_are_swept_too(tmp_path):

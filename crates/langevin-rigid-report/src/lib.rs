@@ -7,12 +7,7 @@
 //! ```
 //! use langevin_rigid_report::{Options, Part, reproduce};
 //!
-//! let options = Options {
-//!     parts: vec![Part::named("fig2")?],
-//!     seeds: 1,
-//!     first_seed: 1,
-//!     cache: None,
-//! };
+//! let options = Options::new(Some(&[Part::named("fig2")?]), 1, 1, None)?;
 //! let folder = tempfile::tempdir()?;
 //! let report = reproduce(&options, folder.path(), &())?;
 //! assert!(report.complete && report.page.is_file());
@@ -63,7 +58,7 @@ use langevin_rigid_formats::files;
 
 pub use error::ReportError;
 pub use numbers::Numbers;
-pub use options::{Options, Part};
+pub use options::{Options, OptionsError, Part};
 pub use section::{Claim, Section};
 pub use table::Table;
 

@@ -6,7 +6,7 @@ use langevin_rigid::{
     Bake, Body, Fluid, Settings, SetupError, Stepper, TurbulenceHistory, falling_speed,
 };
 use langevin_rigid_bake::added_mass::Warning;
-use langevin_rigid_bake::body::{BodyBakeError, bake_body, could_be};
+use langevin_rigid_bake::body::{BodyBakeError, BodySpec, bake_body, could_be};
 use langevin_rigid_bake::progress::Progress;
 use langevin_rigid_bake::shapes::ShapeError;
 use langevin_rigid_bake::turbulence::{FlowOptions, TurbulenceError, turbulence_history};
@@ -90,7 +90,7 @@ pub struct Baked {
     pub notices: Vec<String>,
     /// Whether it came from the cache.
     pub cached: bool,
-    /// Why the cache could not be read or written, if so; the bake is good all the same.
+    /// Why it was not kept in the cache, if so; the bake is good all the same.
     pub cache_trouble: Option<String>,
 }
 
@@ -127,9 +127,13 @@ pub fn bake_scene(
             "its numbers are not those of this body",
         )),
     }
-    let bake = bake_mesh(scene, &mesh, fingerprint, progress)?;
+    let mut bake = bake_mesh(&mesh, &scene.body.spec, progress)?;
+    bake.fingerprint = fingerprint;
+    if needs_history(scene) {
+        bake.history = Some(history(scene, &bake.body, progress)?);
+    }
     let cache_trouble = place.and_then(|p| files::write(&p, &bake.to_bytes()).err());
-    let cache_trouble = cache_trouble.map(|e| e.to_string());
+    let cache_trouble = cache_trouble.map(|e| format!("{e}; the bake was not kept"));
     Ok(Baked {
         bake,
         notices,
@@ -143,18 +147,27 @@ fn distrusted(place: Option<&Path>, reason: &str) -> String {
     format!("the kept bake `{place}` was not used ({reason}); the body was baked anew")
 }
 
-fn bake_mesh(
-    scene: &Scene,
+/// The bake of a mesh, of no scene: without a turbulence history, and with the fingerprint zero.
+///
+/// ```
+/// use langevin_rigid_bake::body::BodySpec;
+/// use langevin_rigid_bake::shapes::Shape;
+/// use langevin_rigid_scenes::baking::bake_mesh;
+/// let cube = Shape::Box { size: [0.1; 3] }.mesh(300)?;
+/// let spec = BodySpec { mass: Some(0.6), ..BodySpec::default() };
+/// let bake = bake_mesh(&cube, &spec, &())?;
+/// assert!(bake.body.mass == 0.6 && bake.warnings.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`BodyBakeError`].
+pub fn bake_mesh(
     mesh: &TriMesh,
-    fingerprint: [u8; 32],
+    spec: &BodySpec,
     progress: &dyn Progress,
-) -> Result<Bake, SceneBakeError> {
-    let (body, added_mass) = bake_body(mesh, &scene.body.spec, progress)?;
-    let history = if needs_history(scene) {
-        Some(history(scene, &body, progress)?)
-    } else {
-        None
-    };
+) -> Result<Bake, BodyBakeError> {
+    let (body, added_mass) = bake_body(mesh, spec, progress)?;
     // The small added mass along a thin sheet hardly matters to how it moves, whatever its accuracy.
     let matters = |w: &&Warning| !matches!(w, Warning::ThinnerThanTriangles { .. });
     let mut warnings: Vec<String> = added_mass
@@ -168,10 +181,10 @@ fn bake_mesh(
     }
     Ok(Bake {
         body,
-        history,
+        history: None,
         error_estimate: added_mass.error_estimate,
         warnings,
-        fingerprint,
+        fingerprint: [0; 32],
     })
 }
 
@@ -297,4 +310,59 @@ fn fingerprint(scene: &Scene, mesh: &TriMesh) -> [u8; 32] {
         ));
     }
     hash.finalize().into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube() -> Scene {
+        let text = r#"
+            fluid.preset = "water"
+            run = { time_step = 0.002, duration = 0.1 }
+            body = { shape = "box", size = [0.1, 0.1, 0.1], triangles = 300, density = 700.0 }
+        "#;
+        Scene::parse("cube", "cube.toml", text).unwrap()
+    }
+
+    #[test]
+    fn the_bake_of_a_mesh_is_that_of_a_scene_with_it() {
+        let scene = cube();
+        let (mesh, _) = mesh(&scene).unwrap();
+        let alone = bake_mesh(&mesh, &scene.body.spec, &()).unwrap();
+        let baked = bake_scene(&scene, None, &()).unwrap().bake;
+        assert_ne!(baked.fingerprint, [0; 32]);
+        let fingerprint = baked.fingerprint;
+        assert_eq!(
+            baked.to_bytes(),
+            Bake {
+                fingerprint,
+                ..alone
+            }
+            .to_bytes()
+        );
+    }
+
+    #[test]
+    fn a_mesh_that_was_turned_is_told() {
+        let scene = cube();
+        let (mesh, _) = mesh(&scene).unwrap();
+        let inside_out = mesh.triangles().iter().map(|[a, b, c]| [*a, *c, *b]);
+        let turned = TriMesh::new(mesh.vertices().to_vec(), inside_out.collect()).unwrap();
+        let bake = bake_mesh(&turned, &scene.body.spec, &()).unwrap();
+        assert_eq!(
+            bake.warnings,
+            ["the mesh was inside out; its triangles were turned"]
+        );
+    }
+
+    #[test]
+    fn a_bake_that_could_not_be_kept_is_good_and_told() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let within_a_file = file.path().join("bakes");
+        let baked = bake_scene(&cube(), Some(&within_a_file), &()).unwrap();
+        assert!(!baked.cached && baked.bake.body.mass > 0.0);
+        let trouble = baked.cache_trouble.unwrap();
+        assert!(trouble.ends_with("the bake was not kept"), "{trouble}");
+    }
 }

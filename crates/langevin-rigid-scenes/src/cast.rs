@@ -20,16 +20,9 @@ impl<'a> Cast<'a> {
     /// # Errors
     /// [`LookError`].
     pub fn new(prepared: &'a Prepared) -> Result<Self, LookError> {
-        let bakes: Vec<(&Scene, &Bake)> = match prepared.surroundings() {
-            None => vec![(prepared.scene(), &prepared.baked().bake)],
-            Some(surroundings) => {
-                let kinds = surroundings.kinds().iter();
-                kinds.map(|kind| (&kind.scene, &kind.baked.bake)).collect()
-            }
-        };
-        let members = bakes
-            .into_iter()
-            .map(|(scene, bake)| Ok((scene, bake, look(scene)?)));
+        let members = prepared
+            .kinds()
+            .map(|(scene, baked)| Ok((scene, &baked.bake, look(scene)?)));
         Ok(Self {
             members: members.collect::<Result<_, LookError>>()?,
         })

@@ -26,7 +26,7 @@ pub use draw::{Change, Draw, draw, scattered_release};
 pub(crate) use draw::{product, uniform};
 pub use fall::{Fall, FallEnding, SAMPLES_PER_SECOND};
 pub use journal::{Journal, JournalError};
-pub use landings::landings;
+pub use landings::{LANDINGS_ABOUT, landings};
 pub use lying::Lying;
 pub(crate) use motion_class::thin_axis;
 pub use motion_class::{MotionClass, MotionTracker};

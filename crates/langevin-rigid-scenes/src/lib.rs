@@ -55,6 +55,7 @@
 //! - [`ensemble`]: many falls, what kind of motion each is, and their statistics.
 //! - [`sweep`]: ensembles of many scenes, in parts that any process can do.
 //! - [`summary`]: what a run comes to.
+//! - [`real_time`](mod@real_time): many bodies at 60 frames a second, and the frames that are missed.
 //! - [`direct`]: releases whose fall does what is asked.
 //! - [`regimes`]: how discs and strips fall over Reynolds number and inertia, against experiments.
 //!
@@ -84,6 +85,7 @@ pub mod ensemble;
 mod lanes;
 pub mod look;
 pub mod prepared;
+pub mod real_time;
 pub mod regimes;
 pub mod scene;
 pub mod shot;

@@ -294,6 +294,16 @@ impl Prepared {
         &self.baked
     }
 
+    /// The kinds of its bodies with their bakes, its own first.
+    pub fn kinds(&self) -> impl Iterator<Item = (&Scene, &Arc<Baked>)> {
+        let own = (&self.scene, &self.baked);
+        let others = self
+            .surroundings()
+            .and_then(|surroundings| surroundings.kinds().get(1..));
+        let others = others.into_iter().flatten();
+        std::iter::once(own).chain(others.map(|kind| (&kind.scene, &kind.baked)))
+    }
+
     /// Its body.
     pub fn body(&self) -> &Body {
         &self.baked.bake.body

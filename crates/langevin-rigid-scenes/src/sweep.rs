@@ -4,6 +4,7 @@
 //! point together, and divided into parts of so many. A part is a pure function of the points that it touches: whoever
 //! does it, wherever and beside whatever, its rows have the same bits.
 
+use std::mem::discriminant;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -23,7 +24,8 @@ pub struct Piece {
     pub point: u32,
     /// What it is.
     pub scene: Scene,
-    /// The parameters that make it, for the table: name and value.
+    /// The parameters that make it, for the table: name and value. All points have the same names in the same order, and
+    /// under each a value of one kind.
     pub parameters: Vec<(String, Parameter)>,
     /// The runs.
     pub runs: Range<u32>,
@@ -36,6 +38,8 @@ pub enum Parameter {
     Number(f64),
     /// A word.
     Word(String),
+    /// Numbers, as many as there are.
+    List(Vec<f64>),
 }
 
 impl Parameter {
@@ -44,8 +48,24 @@ impl Parameter {
         match self {
             Self::Number(x) => Values::Numbers(vec![*x; rows]),
             Self::Word(word) => Values::Words(vec![word.clone().into(); rows]),
+            Self::List(numbers) => Values::Lists(vec![numbers.clone(); rows]),
         }
     }
+}
+
+/// Why a part cannot be computed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// A scene cannot be made ready.
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
+    /// Points have other parameters than the first, or values of other kinds.
+    #[error(
+        "the parameters of point {0} do not fit into a table with those of the first: each point needs the same names, and \
+         under each a number, a word or a list throughout"
+    )]
+    Parameters(u32),
 }
 
 /// The rows of a part: of each run `point`, its parameters and `seed`, then the columns of
@@ -77,12 +97,16 @@ impl Parameter {
 /// ```
 ///
 /// # Errors
-/// [`PrepareError`] of the first scene that cannot be made ready.
+/// [`SweepError::Parameters`] before the work; [`SweepError::Prepare`] of the first scene that cannot be made ready.
 pub fn part(
     pieces: &[Piece],
     cache: Option<&Path>,
     progress: &dyn Progress,
-) -> Result<Option<Table>, PrepareError> {
+) -> Result<Option<Table>, SweepError> {
+    let unfit = |piece: &&Piece| !fit(&pieces[0].parameters, &piece.parameters);
+    if let Some(piece) = pieces.iter().find(unfit) {
+        return Err(SweepError::Parameters(piece.point));
+    }
     let mut table = Table::default();
     let mut last: Option<(Scene, Arc<Baked>)> = None;
     for piece in pieces {
@@ -100,6 +124,14 @@ pub fn part(
         table.append(rows(piece, &prepared, &falls));
     }
     Ok(Some(table))
+}
+
+/// Whether these parameters are of the same columns.
+fn fit(a: &[(String, Parameter)], b: &[(String, Parameter)]) -> bool {
+    let same = |((a, x), (b, y)): (&(String, Parameter), &(String, Parameter))| {
+        a == b && discriminant(x) == discriminant(y)
+    };
+    a.len() == b.len() && a.iter().zip(b).all(same)
 }
 
 /// Whether a bake of the one is a bake of the other.
@@ -149,6 +181,35 @@ mod tests {
         divided.append(part(&[piece(1, 2.0, 1..6)]));
         assert_eq!(divided, whole);
         assert_eq!(whole.rows(), 12);
+    }
+
+    #[test]
+    fn parameters_that_are_no_columns_are_refused() {
+        let with = |point, name: &str, value| Piece {
+            parameters: vec![(name.into(), value)],
+            ..piece(point, 1.0, 0..1)
+        };
+        let list = |numbers: &[f64]| Parameter::List(numbers.to_vec());
+        let first = with(0, "a", list(&[0.5]));
+        for other in [
+            with(7, "b", list(&[0.5])),
+            with(7, "a", Parameter::Number(0.5)),
+            Piece {
+                parameters: Vec::new(),
+                ..piece(7, 1.0, 0..1)
+            },
+        ] {
+            let refused = super::part(&[first.clone(), other], None, &()).unwrap_err();
+            assert!(matches!(refused, SweepError::Parameters(7)), "{refused}");
+        }
+        let lists = [first, with(1, "a", list(&[0.5, 2.0]))];
+        let table = super::part(&lists, None, &()).unwrap().unwrap();
+        let column = &table.columns()[1];
+        assert_eq!(column.name, "a");
+        assert_eq!(
+            column.values,
+            Values::Lists(vec![vec![0.5], vec![0.5, 2.0]])
+        );
     }
 
     #[test]

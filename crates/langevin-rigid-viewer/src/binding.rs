@@ -6,11 +6,9 @@
 use std::path::Path;
 
 use langevin_rigid_bake::progress::Progress;
-use langevin_rigid_formats::export::{
-    Format, Options, RecordedBody, Recording, read_bodies, write,
-};
+use langevin_rigid_formats::export::{Format, Options, Recording, read_bodies, write};
 use langevin_rigid_formats::files;
-use langevin_rigid_formats::trajectory::{Trajectory, read_csv};
+use langevin_rigid_formats::trajectory::read_csv;
 use langevin_rigid_scenes::cast::Cast;
 use langevin_rigid_scenes::scene::BUILT_IN;
 use serde::Serialize;
@@ -183,14 +181,7 @@ impl Session {
         let format: Format = format.parse()?;
         let cast = Cast::new(self.0.prepared())?;
         let kinds = cast.kinds();
-        let bodies = run.0.bodies().iter().zip(run.0.trajectories());
-        let bodies: Vec<RecordedBody<'_>> = bodies
-            .map(|(body, trajectory): (_, &Trajectory)| RecordedBody {
-                kind: body.kind,
-                scale: body.scale,
-                trajectory,
-            })
-            .collect();
+        let bodies = run.0.recorded();
         let recording = Recording {
             conditions: self.0.prepared().scene().conditions(),
             kinds: &kinds,

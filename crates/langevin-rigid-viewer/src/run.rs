@@ -1,7 +1,7 @@
 //! One run, as poses at common times.
 
 use langevin_rigid::State;
-use langevin_rigid_formats::export::BodyRow;
+use langevin_rigid_formats::export::{BodyRow, RecordedBody};
 use langevin_rigid_formats::track::{Track, TrackError};
 use langevin_rigid_formats::trajectory::Trajectory;
 use langevin_rigid_scenes::prepared::Fall;
@@ -79,9 +79,7 @@ impl Run {
             trouble: fall.ended.as_ref().err().map(ToString::to_string),
             from: 0,
         });
-        let trajectories = falls
-            .iter()
-            .map(|fall| Trajectory::new(fall.body, &fall.states));
+        let trajectories = falls.iter().map(Fall::trajectory);
         let states = match falls {
             [fall] => thinned(&fall.states),
             _ => Vec::new(),
@@ -163,6 +161,18 @@ impl Run {
     /// Every pose and velocity that was kept.
     pub fn trajectories(&self) -> &[Trajectory] {
         &self.trajectories
+    }
+
+    /// Its bodies for exports.
+    pub fn recorded(&self) -> Vec<RecordedBody<'_>> {
+        let bodies = self.bodies.iter().zip(&self.trajectories);
+        bodies
+            .map(|(body, trajectory)| RecordedBody {
+                kind: body.kind,
+                scale: body.scale,
+                trajectory,
+            })
+            .collect()
     }
 }
 
@@ -250,6 +260,11 @@ mod tests {
         let again = session.replay(read_csv(&table).unwrap(), &[]).unwrap();
         assert_eq!(again.frames(), run.frames());
         assert_eq!(again.bodies()[0].ending, "recorded");
+        let [body] = run.recorded()[..] else {
+            panic!("there is one body");
+        };
+        assert_eq!((body.kind, body.scale), (0, 1.0));
+        assert_eq!(csv(body.trajectory), table);
         assert!(matches!(
             session.replay(Vec::new(), &[]),
             Err(ReplayError::Nobody)

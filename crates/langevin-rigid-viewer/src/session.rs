@@ -68,14 +68,8 @@ impl Session {
 
     /// The kinds of bodies with their bakes, the scene's own first.
     pub fn kinds(&self) -> impl Iterator<Item = (&str, &Body)> {
-        let crowd = self.prepared.surroundings();
-        let own = crowd
-            .is_none()
-            .then(|| (self.prepared.scene(), self.prepared.baked()));
-        let others = crowd.into_iter().flat_map(|crowd| crowd.kinds());
-        own.into_iter()
-            .chain(others.map(|kind| (&kind.scene, &kind.baked)))
-            .map(|(scene, baked)| (scene.name.as_str(), &baked.bake.body))
+        let kinds = self.prepared.kinds();
+        kinds.map(|(scene, baked)| (scene.name.as_str(), &baked.bake.body))
     }
 
     /// Drops the body, or lets the bodies of a world go.

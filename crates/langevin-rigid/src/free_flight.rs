@@ -236,7 +236,9 @@ mod tests {
     #[test]
     fn the_inertia_is_that_of_body_and_fluid() {
         let stepper = leaf();
-        let inertia = stepper.contact_mass([0.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0]).inertia;
+        let inertia = stepper
+            .contact_mass([0.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0])
+            .inertia;
         let total = stepper.total_mass();
         for i in 0..3 {
             // Symmetric about its centre: nothing couples turning to moving.

@@ -12,13 +12,18 @@ use crate::stepped::Stepped;
 /// Draws bodies between their last two fixed steps, as far as the frame is.
 pub(crate) fn draw(
     time: Res<Time<Fixed>>,
-    mut bodies: Query<(&mut Stepped, &mut Transform), (Without<ChildOf>, Without<Hosted>, Without<Quarantined>)>,
+    mut bodies: Query<
+        (&mut Stepped, &mut Transform),
+        (Without<ChildOf>, Without<Hosted>, Without<Quarantined>),
+    >,
 ) {
     let fraction = time.overstep_fraction_f64();
-    for (mut stepped, mut transform) in &mut bodies {
-        stepped.follow(&transform);
-        if stepped.fault.is_none() {
-            stepped.draw(fraction, &mut transform);
-        }
-    }
+    bodies
+        .par_iter_mut()
+        .for_each(|(mut stepped, mut transform)| {
+            stepped.follow(&transform);
+            if stepped.fault.is_none() {
+                stepped.draw(fraction, &mut transform);
+            }
+        });
 }

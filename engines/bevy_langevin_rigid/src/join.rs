@@ -130,8 +130,8 @@ impl Workshop<'_> {
             Outcome::Failed => return Outcome::Failed,
         };
         let steppers = &mut self.steppers;
-        let mover = match steppers.stepper(&shape, &self.bodies, &self.server, &self.settings) {
-            Outcome::Ready(stepper) => Mover::Immersed(stepper),
+        let mover = match steppers.mobility(&shape, &self.bodies, &self.server, &self.settings) {
+            Outcome::Ready(mobility) => Mover::Immersed(mobility),
             // Other settings may make it possible.
             Outcome::Failed => Mover::Plain,
             Outcome::Waiting => return Outcome::Waiting,

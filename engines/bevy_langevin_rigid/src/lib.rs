@@ -23,6 +23,7 @@
 //! The states of the bodies ([`Stepped`]) are in double precision, and a pure function of what was spawned, of what the
 //! game set before which fixed step, and of the seed: neither the frame rate nor the number of threads changes a bit. When a
 //! body joins that is baked from its mesh depends on how long that takes; load a [`BakedBody`] where that matters.
+//! With a [`LevelOfDetail`] the states also depend on where the viewer is at each fixed step.
 //!
 //! # Conventions
 //!
@@ -33,11 +34,17 @@ mod ambient;
 mod baked_body;
 mod baking;
 mod components;
+mod crowd;
+mod detail;
 mod draw;
 mod join;
+mod medium;
 mod plain_fall;
 mod plugin;
 mod quarantine;
+mod regions;
+mod said;
+mod shedding;
 mod stepped;
 mod steppers;
 mod steps;
@@ -47,8 +54,13 @@ pub use baked_body::{BakedBody, BakedBodyLoader, BakedBodyLoaderSettings, LoadEr
 pub use components::{
     AngularVelocity, BodySource, ExternalWrench, Hosted, Immersed, LinearVelocity, Quarantined,
 };
+pub use detail::LevelOfDetail;
 pub use plugin::{LangevinRigidPlugin, LangevinRigidSystems};
+pub use regions::{Extent, Fan, FluidRegion};
+pub use shedding::{Crown, DropLeaves, Leaf, LeafLimit, LeavesShed, ShedFrom};
 pub use stepped::Stepped;
 
 /// The library that the plugin steps bodies with.
 pub use langevin_rigid;
+/// The library's bodies between two fluids.
+pub use langevin_rigid_world;

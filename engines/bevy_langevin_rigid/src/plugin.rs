@@ -11,8 +11,11 @@ use crate::ambient::{AmbientWind, ImmersionSettings};
 use crate::baked_body::{BakedBody, BakedBodyLoader};
 use crate::baking::Bakes;
 use crate::components::NextNumber;
+use crate::detail::LevelOfDetail;
+use crate::regions::Surroundings;
+use crate::shedding::{DropLeaves, LeafLimit, Shedding};
 use crate::steppers::Steppers;
-use crate::{baking, draw, join, quarantine, steppers, steps};
+use crate::{baking, draw, join, quarantine, regions, shedding, steppers, steps};
 
 /// Moves bodies that are [`Immersed`](crate::Immersed).
 ///
@@ -24,7 +27,9 @@ pub struct LangevinRigidPlugin;
 /// The systems of the plugin, in their order.
 #[derive(SystemSet, Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LangevinRigidSystems {
-    /// In `FixedUpdate`: meshes are baked, and bodies join whose shape is ready.
+    /// In `FixedUpdate`: trees shed leaves.
+    Shed,
+    /// In `FixedUpdate`: fluid regions and fans are found, meshes are baked, and bodies join whose shape is ready.
     Join,
     /// In `FixedUpdate`: what the game has changed since the last step (`Transform`s and velocities) is read.
     Read,
@@ -38,7 +43,7 @@ pub enum LangevinRigidSystems {
 
 impl Plugin for LangevinRigidPlugin {
     fn build(&self, app: &mut App) {
-        use LangevinRigidSystems::{Draw, Join, Read, Step, Write};
+        use LangevinRigidSystems::{Draw, Join, Read, Shed, Step, Write};
         app.init_asset::<BakedBody>()
             .init_asset_loader::<BakedBodyLoader>()
             .init_resource::<ImmersionSettings>()
@@ -46,13 +51,24 @@ impl Plugin for LangevinRigidPlugin {
             .init_resource::<Bakes>()
             .init_resource::<NextNumber>()
             .init_resource::<Steppers>()
+            .init_resource::<Surroundings>()
+            .init_resource::<Shedding>()
+            .init_resource::<LevelOfDetail>()
+            .register_type::<LevelOfDetail>()
+            .init_resource::<LeafLimit>()
+            .add_message::<DropLeaves>()
+            .register_type::<crate::Fan>()
+            .register_type::<crate::Crown>()
+            .register_type::<crate::LeavesShed>()
+            .register_type::<crate::ShedFrom>()
+            .register_type::<crate::LeafLimit>()
             .register_type::<crate::Immersed>()
             .register_type::<crate::LinearVelocity>()
             .register_type::<crate::AngularVelocity>()
             .register_type::<crate::ExternalWrench>()
             .register_type::<crate::Hosted>()
             .register_type::<crate::Quarantined>()
-            .configure_sets(FixedUpdate, (Join, Read, Step, Write).chain())
+            .configure_sets(FixedUpdate, (Shed, Join, Read, Step, Write).chain())
             .configure_sets(
                 RunFixedMainLoop,
                 Draw.in_set(RunFixedMainLoopSystems::AfterFixedMainLoop),
@@ -60,7 +76,9 @@ impl Plugin for LangevinRigidPlugin {
             .add_systems(
                 FixedUpdate,
                 (
+                    (shedding::receive, shedding::shed).chain().in_set(Shed),
                     (
+                        regions::survey,
                         steppers::renew,
                         baking::forget_changed_meshes
                             .run_if(resource_exists::<Messages<AssetEvent<Mesh>>>),

@@ -8,8 +8,9 @@ use bevy_transform::components::Transform;
 use langevin_rigid::{FreeFlight, Input, State, Stepper};
 
 use crate::components::{AngularVelocity, LinearVelocity};
+use crate::medium::Medium;
 use crate::plain_fall::fall;
-use crate::steppers::Shape;
+use crate::steppers::{Mobility, Shape};
 
 /// A body that has joined: its state in double precision, after the last fixed step.
 #[derive(Component, Debug)]
@@ -19,8 +20,12 @@ pub struct Stepped {
     pub(crate) shape: Option<Shape>,
     /// Why it cannot go on.
     pub(crate) fault: Option<String>,
+    medium: Medium,
     current: State,
     previous: State,
+    /// How many fixed steps lie between the two, and how many of these have passed.
+    span: u32,
+    passed: u32,
     /// In the frame of the mesh, before it is scaled (m).
     centre_of_mass: DVec3,
     written: Written,
@@ -29,7 +34,7 @@ pub struct Stepped {
 /// What moves a body.
 #[derive(Debug, Clone)]
 pub(crate) enum Mover {
-    Immersed(Arc<Stepper>),
+    Immersed(Arc<Mobility>),
     /// Gravity alone, since the body could not be made.
     Plain,
 }
@@ -56,8 +61,11 @@ impl Stepped {
             mover,
             shape,
             fault: None,
+            medium: Medium::default(),
             current: State::default(),
             previous: State::default(),
+            span: 1,
+            passed: 1,
             centre_of_mass: centre_of_mass.into(),
             written: Written {
                 translation: transform.translation,
@@ -76,17 +84,24 @@ impl Stepped {
         Ok(joined)
     }
 
-    /// The state after the last fixed step; its position is that of the centre of mass, its clock starts when the body
-    /// joins.
+    /// The state after the last step; its position is that of the centre of mass, its clock starts when the body joins.
+    ///
+    /// A body that is far away ([`LevelOfDetail`](crate::LevelOfDetail)) takes several fixed steps as one, and is drawn on
+    /// its way to this state until they have passed.
     pub fn state(&self) -> &State {
         &self.current
     }
 
-    /// The body in its fluid; none for one that [falls plainly](Stepped::falls_plainly).
-    pub fn stepper(&self) -> Option<&Arc<Stepper>> {
-        match &self.mover {
-            Mover::Immersed(stepper) => Some(stepper),
-            Mover::Plain => None,
+    /// The body in the fluid that most of it is in; none for one that [falls plainly](Stepped::falls_plainly).
+    pub fn stepper(&self) -> Option<&Stepper> {
+        match (&self.mover, &self.medium) {
+            (Mover::Plain, _) => None,
+            (_, Medium::Region(immersion, surface))
+                if immersion.share(&self.current, surface) > 0.5 =>
+            {
+                Some(immersion.in_water())
+            }
+            (Mover::Immersed(mobility), _) => Some(&mobility.open),
         }
     }
 
@@ -120,6 +135,7 @@ impl Stepped {
         if !turned && transform.translation == self.written.translation {
             return;
         }
+        self.stop();
         match self.place(transform, turned) {
             Ok(()) => {
                 self.written.translation = transform.translation;
@@ -145,6 +161,7 @@ impl Stepped {
         self.current.orientation = orientation.to_array();
         self.current.set_world_velocities(velocity, spin);
         self.previous = self.current;
+        self.medium = Medium::Unknown;
         Ok(())
     }
 
@@ -161,6 +178,7 @@ impl Stepped {
             self.fault = Some(fault);
             return;
         }
+        self.stop();
         let mut linear = self.current.world_velocity();
         let mut angular = self.current.world_angular_velocity();
         if velocity != self.written.velocity {
@@ -174,12 +192,57 @@ impl Stepped {
         self.written.angular_velocity = angular_velocity;
     }
 
-    /// One fixed step of `dt` (s).
-    pub(crate) fn step(&mut self, dt: f64, input: &Input, gravity: [f64; 3]) {
+    /// Whether the step that it took is over.
+    pub(crate) fn is_due(&self) -> bool {
+        self.passed >= self.span
+    }
+
+    /// One more fixed step of the step that it took has passed.
+    pub(crate) fn pass(&mut self) {
+        self.passed += 1;
+    }
+
+    /// Ends the step that it took where it is by now.
+    pub(crate) fn stop(&mut self) {
+        if self.is_due() {
+            return;
+        }
+        let passed = f64::from(self.passed) / f64::from(self.span);
+        let mut now = self.current;
+        let (place, turn) = self.between(passed);
+        now.position = place.to_array();
+        now.orientation = turn.to_array();
+        let mixed = |of: fn(&State) -> [f64; 3]| {
+            let (from, to) = (
+                DVec3::from(of(&self.previous)),
+                DVec3::from(of(&self.current)),
+            );
+            from.lerp(to, passed).to_array()
+        };
+        now.set_world_velocities(
+            mixed(State::world_velocity),
+            mixed(State::world_angular_velocity),
+        );
+        now.time = self.previous.time + passed * (self.current.time - self.previous.time);
+        self.current = now;
+        self.previous = now;
+        self.span = 1;
+        self.passed = 1;
+    }
+
+    /// A step of `dt` (s), which is so many fixed steps.
+    pub(crate) fn step(
+        &mut self,
+        dt: f64,
+        span: u32,
+        input: &Input,
+        gravity: [f64; 3],
+        medium: Medium,
+    ) {
         let mut next = self.current;
         match &self.mover {
-            Mover::Immersed(stepper) => {
-                if let Err(error) = stepper.step(&mut next, dt, input) {
+            Mover::Immersed(mobility) => {
+                if let Err(error) = medium.step(&mut next, &self.medium, mobility, dt, input) {
                     self.fault = Some(error.to_string());
                     return;
                 }
@@ -192,8 +255,26 @@ impl Stepped {
                 }
             }
         }
+        self.take_step(next, span, medium);
+    }
+
+    /// Takes a step to `next`, which is so many fixed steps, through `medium`.
+    pub(crate) fn take_step(&mut self, next: State, span: u32, medium: Medium) {
         self.previous = self.current;
         self.current = next;
+        self.medium = medium;
+        self.span = span;
+        self.passed = 1;
+    }
+
+    /// Position and orientation so far between the last two states.
+    fn between(&self, part: f64) -> (DVec3, DQuat) {
+        let position = |state: &State| DVec3::from(state.position);
+        let orientation = |state: &State| DQuat::from_array(state.orientation);
+        (
+            position(&self.previous).lerp(position(&self.current), part),
+            orientation(&self.previous).slerp(orientation(&self.current), part),
+        )
     }
 
     /// Velocities after the step, which the entity is given.
@@ -207,10 +288,8 @@ impl Stepped {
 
     /// Draws the body so far between the last two fixed steps.
     pub(crate) fn draw(&mut self, fraction: f64, transform: &mut Transform) {
-        let position = |state: &State| DVec3::from(state.position);
-        let orientation = |state: &State| DQuat::from_array(state.orientation);
-        let place = position(&self.previous).lerp(position(&self.current), fraction);
-        let turn = orientation(&self.previous).slerp(orientation(&self.current), fraction);
+        let passed = f64::from(self.passed) - 1.0 + fraction;
+        let (place, turn) = self.between(passed / f64::from(self.span));
         let arm = transform.scale.as_dvec3() * self.centre_of_mass;
         transform.translation = (place - turn * arm).as_vec3();
         transform.rotation = turn.as_quat();

@@ -7,12 +7,14 @@ use bevy_log::warn;
 use bevy_math::Vec3;
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
-use langevin_rigid::{Flow, Input, NoiseStream, Wrench};
 
-use crate::ambient::{AmbientWind, ImmersionSettings};
+use crate::ambient::ImmersionSettings;
 use crate::components::{
     AngularVelocity, ExternalWrench, Hosted, Immersed, LinearVelocity, Quarantined,
 };
+use crate::crowd::{self, Due, FixedStep};
+use crate::detail::View;
+use crate::regions::Surroundings;
 use crate::stepped::Stepped;
 
 /// Stops bodies that were given a parent: it moves them from now on.
@@ -39,51 +41,63 @@ pub(crate) fn read(
         (Without<ChildOf>, Without<Quarantined>, Without<Hosted>),
     >,
 ) {
-    for (mut stepped, transform, velocity, angular_velocity) in &mut bodies {
-        stepped.follow(transform);
-        stepped.accelerate(*velocity, *angular_velocity);
-    }
+    bodies
+        .par_iter_mut()
+        .for_each(|(mut stepped, transform, velocity, angular_velocity)| {
+            stepped.follow(transform);
+            stepped.accelerate(*velocity, *angular_velocity);
+        });
 }
 
-/// Steps all bodies, on any number of threads.
+/// Steps all bodies that are due, on any number of threads.
 pub(crate) fn step(
     time: Res<Time<Fixed>>,
     settings: Res<ImmersionSettings>,
-    wind: Res<AmbientWind>,
+    around: Res<Surroundings>,
+    view: View,
+    mut count: Local<u32>,
     mut bodies: Query<
         (&mut Stepped, &Immersed, &ExternalWrench, Option<&Hosted>),
         (Without<ChildOf>, Without<Quarantined>),
     >,
 ) {
     let dt = time.delta_secs_f64();
-    let start = time.elapsed_secs_f64() - dt;
-    bodies
-        .par_iter_mut()
-        .for_each(|(mut stepped, immersed, wrench, hosted)| {
-            if stepped.fault.is_some() || hosted.is_some_and(|hosted| hosted.asleep) {
-                return;
+    let spans = view.spans();
+    let mut due = Vec::new();
+    for (mut stepped, immersed, wrench, hosted) in &mut bodies {
+        if stepped.fault.is_some() || hosted.is_some_and(|hosted| hosted.asleep) {
+            continue;
+        }
+        let pushed = *wrench != ExternalWrench::default();
+        if !stepped.is_due() {
+            if !pushed {
+                stepped.pass();
+                continue;
             }
-            let input = Input {
-                flow: flow(&wind, &stepped, start, &settings),
-                wrench: Wrench {
-                    force: wrench.force.as_dvec3().to_array(),
-                    torque: wrench.torque.as_dvec3().to_array(),
-                },
-                noise: NoiseStream {
-                    seed: settings.seed,
-                    body: immersed.number.unwrap_or(0),
-                },
-            };
-            stepped.step(dt, &input, settings.motion.gravity);
+            stepped.stop();
+        }
+        let number = immersed.number.unwrap_or(0);
+        let position = stepped.state().position;
+        let span = match &spans {
+            // What a physics engine hosts, it moves at every step.
+            Some(spans) if !pushed && hosted.is_none() => spans.of(position, number, *count),
+            _ => 1,
+        };
+        due.push(Due {
+            stepped,
+            number,
+            wrench: *wrench,
+            span,
         });
-}
-
-fn flow(wind: &AmbientWind, stepped: &Stepped, time: f64, settings: &ImmersionSettings) -> Flow {
-    if wind.0.is_empty() {
-        return Flow::default();
     }
-    let position = stepped.state().position;
-    wind.0.flow(position, time, settings.fluid.velocity)
+    let fixed = FixedStep {
+        start: time.elapsed_secs_f64() - dt,
+        dt,
+        settings: &settings,
+        around: &around,
+    };
+    crowd::step(due, &fixed);
+    *count = count.wrapping_add(1);
 }
 
 /// Writes the velocities after the step.
@@ -93,9 +107,11 @@ pub(crate) fn write(
         (Without<ChildOf>, Without<Quarantined>),
     >,
 ) {
-    for (mut stepped, mut velocity, mut angular_velocity) in &mut bodies {
-        if stepped.fault.is_none() {
-            (*velocity, *angular_velocity) = stepped.velocities();
-        }
-    }
+    bodies
+        .par_iter_mut()
+        .for_each(|(mut stepped, mut velocity, mut angular_velocity)| {
+            if stepped.fault.is_none() {
+                (*velocity, *angular_velocity) = stepped.velocities();
+            }
+        });
 }

@@ -4,8 +4,6 @@
 
 mod common;
 
-use std::sync::{Mutex, MutexGuard, Once, PoisonError};
-
 use bevy_app::App;
 use bevy_asset::{AssetServer, Assets, Handle};
 use bevy_ecs::prelude::*;
@@ -13,59 +11,13 @@ use bevy_langevin_rigid::langevin_rigid::Body;
 use bevy_langevin_rigid::{
     AngularVelocity, BakedBody, BodySource, Immersed, ImmersionSettings, Stepped,
 };
-use bevy_log::tracing::field::{Field, Visit};
-use bevy_log::tracing::{Event, Level, Subscriber};
-use bevy_log::tracing_subscriber::Layer;
-use bevy_log::tracing_subscriber::layer::{Context, SubscriberExt};
-use bevy_log::tracing_subscriber::registry::Registry;
 use bevy_math::primitives::{Cuboid, Plane3d};
 use bevy_math::{DVec3, Quat, Vec3};
 use bevy_mesh::{Mesh, Mesh3d, Meshable};
 use bevy_transform::components::Transform;
 
+use common::log::{errors, listening};
 use common::{app, at_height, joined, state, steps, until};
-
-static ERRORS: Mutex<Vec<String>> = Mutex::new(Vec::new());
-
-fn errors() -> MutexGuard<'static, Vec<String>> {
-    ERRORS.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Keeps the errors of the plugin in [`ERRORS`].
-struct Keep;
-
-impl<S: Subscriber> Layer<S> for Keep {
-    fn on_event(&self, event: &Event<'_>, _: Context<'_, S>) {
-        let metadata = event.metadata();
-        if *metadata.level() == Level::ERROR && metadata.target().starts_with("bevy_langevin_rigid")
-        {
-            event.record(&mut Message);
-        }
-    }
-}
-
-struct Message;
-
-impl Visit for Message {
-    fn record_debug(&mut self, field: &Field, value: &dyn std::fmt::Debug) {
-        if field.name() == "message" {
-            errors().push(format!("{value:?}"));
-        }
-    }
-}
-
-/// Tests that read the log take turns; each begins with an empty one.
-fn listening() -> MutexGuard<'static, ()> {
-    static INSTALLED: Once = Once::new();
-    static TURN: Mutex<()> = Mutex::new(());
-    let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
-    INSTALLED.call_once(|| {
-        let subscriber = Registry::default().with(Keep);
-        bevy_log::tracing::subscriber::set_global_default(subscriber).unwrap();
-    });
-    errors().clear();
-    turn
-}
 
 fn mesh(app: &mut App, mesh: impl Into<Mesh>) -> Mesh3d {
     Mesh3d(app.world_mut().resource_mut::<Assets<Mesh>>().add(mesh))

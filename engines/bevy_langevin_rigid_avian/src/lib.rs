@@ -22,8 +22,8 @@
 mod convert;
 mod handed;
 mod plugin;
-mod stir;
 mod steps;
+mod stir;
 
 pub use plugin::LangevinRigidAvianPlugin;
 pub use stir::STIRRING;

@@ -3,8 +3,8 @@
 use avian3d::math::SymmetricMatrix3;
 use avian3d::prelude::{
     AngularVelocity, Collisions, ComputedAngularInertia, ComputedCenterOfMass, ComputedMass,
-    CustomVelocityIntegration, LinearVelocity, NoAutoAngularInertia, NoAutoCenterOfMass, NoAutoMass,
-    Position, RigidBody, Rotation, Sleeping,
+    CustomVelocityIntegration, LinearVelocity, NoAutoAngularInertia, NoAutoCenterOfMass,
+    NoAutoMass, Position, RigidBody, Rotation, Sleeping,
 };
 use bevy_ecs::entity::Entity;
 use bevy_ecs::query::{Has, With, Without};
@@ -51,8 +51,17 @@ pub(crate) fn read(
         Has<Sleeping>,
     )>,
 ) {
-    for (mut stepped, mut handed, mut hosted, transform, position, rotation, velocity, spin, asleep) in
-        &mut bodies
+    for (
+        mut stepped,
+        mut handed,
+        mut hosted,
+        transform,
+        position,
+        rotation,
+        velocity,
+        spin,
+        asleep,
+    ) in &mut bodies
     {
         if hosted.asleep != asleep {
             hosted.asleep = asleep;
@@ -106,8 +115,17 @@ pub(crate) fn hand_over(
     >,
 ) {
     let dt = time.delta_secs_f64();
-    for (entity, stepped, mut handed, transform, mut v, mut omega, mut mass, mut inertia, mut centre) in
-        &mut bodies
+    for (
+        entity,
+        stepped,
+        mut handed,
+        transform,
+        mut v,
+        mut omega,
+        mut mass,
+        mut inertia,
+        mut centre,
+    ) in &mut bodies
     {
         let flight = stepped.flight(dt);
         *v = convert::velocity(flight.velocity());
@@ -120,8 +138,10 @@ pub(crate) fn hand_over(
         let normal = normal(entity, &collisions).as_dvec3().to_array();
         let contact = stepper.contact_mass(stepped.state().orientation, normal);
         *mass = ComputedMass::new(contact.mass as f32);
-        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = contact.inertia.map(|row| row.map(|x| x as f32));
-        *inertia = ComputedAngularInertia::from_tensor(SymmetricMatrix3::new(xx, xy, xz, yy, yz, zz));
+        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] =
+            contact.inertia.map(|row| row.map(|x| x as f32));
+        *inertia =
+            ComputedAngularInertia::from_tensor(SymmetricMatrix3::new(xx, xy, xz, yy, yz, zz));
     }
 }
 

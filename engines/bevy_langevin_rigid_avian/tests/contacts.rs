@@ -43,7 +43,10 @@ fn two_hundred_cards_land_lie_flat_and_sleep() {
     let entities: Vec<Entity> = (0..200u16)
         .map(|number| {
             let turn = f32::from(number);
-            let (x, z) = (0.12 * f32::from(number % 10), 0.12 * f32::from(number / 10 % 10));
+            let (x, z) = (
+                0.12 * f32::from(number % 10),
+                0.12 * f32::from(number / 10 % 10),
+            );
             let y = 1.0 + 0.5 * f32::from(number / 100) + 0.01 * f32::from(number % 7);
             let tilt = Vec3::new(0.37, 0.11, 0.23) * turn;
             let pose = Transform::from_xyz(x, y, z).with_rotation(Quat::from_scaled_axis(tilt));
@@ -82,8 +85,10 @@ fn a_gust_wakes_a_card_and_a_breath_does_not() {
         assert!(waited < 640, "the card does not sleep after 10 s");
     }
     let blow = |app: &mut bevy_app::App, speed: f64| {
-        let wind = WindField::Uniform([speed, 0.4 * speed, 0.0]);
-        app.insert_resource(AmbientWind(Wind::new(vec![wind]).unwrap()));
+        let mut wind = Wind::default();
+        wind.add(WindField::Uniform([speed, 0.4 * speed, 0.0]))
+            .unwrap();
+        app.insert_resource(AmbientWind(wind));
         steps(app, 60);
     };
     blow(&mut app, 0.05);
@@ -110,7 +115,9 @@ fn a_game_moves_and_pushes_a_body() {
 fn only_dynamic_bodies_are_hosted_and_despawning_is_quiet() {
     let mut app = app();
     let held = drop_card(&mut app, Transform::from_xyz(0.0, 3.0, 0.0));
-    app.world_mut().entity_mut(held).insert(RigidBody::Kinematic);
+    app.world_mut()
+        .entity_mut(held)
+        .insert(RigidBody::Kinematic);
     let free = drop_card(&mut app, Transform::from_xyz(1.0, 3.0, 0.0));
     steps(&mut app, 3);
     assert!(app.world().get::<Hosted>(held).is_none());

@@ -30,7 +30,8 @@ pub struct Survey {
     pub bounds: [[f64; 3]; 2],
     /// Area of all sound triangles (m²).
     pub area: f64,
-    /// Volume of the solid (m³), cavities subtracted; it means nothing while there are holes or parts meet.
+    /// Volume of the solid (m³), cavities subtracted; it means nothing while there are holes or parts meet (see
+    /// [`Survey::closed_volume`]).
     pub volume: f64,
     /// Triangles with a vertex that does not exist, or a coordinate that is not finite or beyond 1e60 m.
     pub unusable: usize,
@@ -106,6 +107,15 @@ impl Component {
     fn solid(&self) -> Option<f64> {
         let sign = if self.depth % 2 == 1 { -1.0 } else { 1.0 };
         self.volume.map(|volume| sign * volume.abs())
+    }
+}
+
+impl Survey {
+    /// The volume of the solid (m³), where the surface is closed and does not meet itself.
+    pub fn closed_volume(&self) -> Option<f64> {
+        let faults = [&self.non_manifold_edges, &self.meeting];
+        let closed = self.holes.is_empty() && faults.iter().all(|faults| faults.count == 0);
+        closed.then_some(self.volume)
     }
 }
 

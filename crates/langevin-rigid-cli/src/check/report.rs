@@ -2,12 +2,12 @@
 
 mod table;
 
-use langevin_rigid_bake::added_mass::{AddedMassError, Expected, Options, Thinnest, expected};
-use langevin_rigid_bake::mesh::{Component, Faults, Finding, Hole, Survey};
+use langevin_rigid_bake::added_mass::{Expected, Thinnest};
+use langevin_rigid_bake::check::Checked;
+use langevin_rigid_bake::mesh::{Component, Faults, Finding, Hole, Options};
 use langevin_rigid_formats::mesh::{FileUnit, LengthUnit};
 use serde::Serialize;
 
-use super::remedy::Remedy;
 use crate::arguments::Check;
 use crate::repair::{BalanceReport, StepReport};
 
@@ -15,8 +15,6 @@ use crate::repair::{BalanceReport, StepReport};
 const LISTED: usize = 5;
 /// The largest box of a body in air or water that is likely (m), and the smallest.
 const LIKELY: [f64; 2] = [1e-3, 30.0];
-/// What makes a body of too many triangles ready.
-const FEWER: &str = " --triangles 100000";
 
 /// The JSON keys are a contract with scripts; lengths in metres.
 #[derive(Serialize)]
@@ -104,18 +102,16 @@ struct ExpectedReport {
 }
 
 impl Report {
-    pub(super) fn new(options: &Check, unit: FileUnit, survey: &Survey, remedy: &Remedy) -> Report {
+    pub(super) fn new(options: &Check, unit: FileUnit, checked: &Checked) -> Report {
+        let Checked {
+            survey,
+            remedy,
+            expected,
+        } = checked;
         let size: [f64; 3] = std::array::from_fn(|k| survey.bounds[1][k] - survey.bounds[0][k]);
         let in_file = size.map(|x| x / unit.to_metres(1.0));
         let sizes = UNITS.map(|unit| in_file.map(|x| unit.to_metres(x)));
         let [m, cm, mm, um, inches, feet] = sizes;
-        let body = survey.body.as_ref().ok().or(remedy.body.as_ref());
-        let foretold = body.map(|body| expected(body, &Options::default()));
-        let too_large = foretold.as_ref().is_some_and(Result::is_err);
-        let fewer = if too_large { FEWER } else { "" };
-        let flags = remedy.flags.clone().or(too_large.then(String::new));
-        let faults = [&survey.non_manifold_edges, &survey.meeting];
-        let closed = survey.holes.is_empty() && faults.iter().all(|f| f.count == 0);
         let Faults {
             count: non_manifold_edges,
             first: first_non_manifold_edge,
@@ -138,7 +134,7 @@ impl Report {
             size_if_ft: feet,
             unit_hint: unit_hint(size, sizes),
             area: survey.area,
-            volume: closed.then_some(survey.volume),
+            volume: survey.closed_volume(),
             holes: survey.holes.len(),
             largest_holes: survey
                 .holes
@@ -170,14 +166,14 @@ impl Report {
                 .map(ComponentReport::new)
                 .collect(),
             findings: survey.findings(),
-            ready: survey.body.is_ok() && !too_large,
-            fault: fault(survey, &foretold),
-            expected: foretold.and_then(Result::ok).map(ExpectedReport::new),
-            repair: flags.map(|flags| command(options, &(flags + fewer))),
-            repair_of_sheet: remedy
-                .sheet_flags
+            ready: checked.ready(),
+            fault: checked.fault(),
+            expected: expected
                 .as_ref()
-                .map(|flags| command(options, flags)),
+                .and_then(|expected| expected.as_ref().ok())
+                .map(ExpectedReport::new),
+            repair: checked.repair().map(|repair| command(options, &repair)),
+            repair_of_sheet: remedy.sheet.map(|repair| command(options, &repair)),
             repair_balance: remedy.balance.as_ref().map(BalanceReport::new),
             repair_warnings: remedy
                 .balance
@@ -185,7 +181,7 @@ impl Report {
                 .map_or_else(Vec::new, |balance| balance.warnings()),
             repair_steps: remedy.steps.iter().map(StepReport::new).collect(),
             left: remedy
-                .flags
+                .options
                 .is_none()
                 .then(|| remedy.left.as_ref().map(ToString::to_string))
                 .flatten(),
@@ -217,7 +213,7 @@ impl ComponentReport {
 }
 
 impl ExpectedReport {
-    fn new(foretold: Expected) -> ExpectedReport {
+    fn new(foretold: &Expected) -> ExpectedReport {
         let wall = |f: fn(Thinnest) -> f64| foretold.thinnest.map(f);
         ExpectedReport {
             triangles_solved: foretold.triangles_solved,
@@ -228,13 +224,6 @@ impl ExpectedReport {
             thinnest_wall_at: foretold.thinnest.map(|t| t.position),
         }
     }
-}
-
-/// Why the mesh is not ready, at first sight.
-fn fault(survey: &Survey, foretold: &Option<Result<Expected, AddedMassError>>) -> Option<String> {
-    let of_body = survey.body.as_ref().err().map(ToString::to_string);
-    let of_size = foretold.as_ref().and_then(|f| f.as_ref().err());
-    of_body.or(of_size.map(ToString::to_string))
 }
 
 /// In the order of the report.
@@ -267,7 +256,7 @@ fn unit_hint(size: [f64; 3], others: [[f64; 3]; 6]) -> Option<String> {
 }
 
 /// The command line that mends the mesh.
-fn command(options: &Check, flags: &str) -> String {
+fn command(options: &Check, repair: &Options) -> String {
     let unit = options.unit.map(|unit| format!(" --unit {unit}"));
     let unit = unit.unwrap_or_default();
     let stem = options.mesh.file_stem().unwrap_or_default();
@@ -281,5 +270,30 @@ fn command(options: &Check, flags: &str) -> String {
             false => name,
         },
     );
+    let flags = flags(repair);
     format!("langevin-rigid repair {mesh}{unit}{flags} --out {out}")
+}
+
+/// Options of `repair` as they are given to it.
+fn flags(repair: &Options) -> String {
+    let Options {
+        weld,
+        fill,
+        thickness,
+        triangles,
+        wrap,
+        largest,
+    } = repair;
+    [
+        weld.map(|distance| format!(" --weld {distance}")),
+        fill.map(|edges| format!(" --fill {edges}")),
+        // Which, its owner knows.
+        thickness.map(|_| " --thickness LENGTH".to_owned()),
+        wrap.map(|size| format!(" --wrap {size}")),
+        largest.then(|| " --largest".to_owned()),
+        triangles.map(|count| format!(" --triangles {count}")),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }

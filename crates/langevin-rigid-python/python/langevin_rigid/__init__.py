@@ -4,7 +4,7 @@ A mesh is checked (`check`), mended (`repair`), and has an added mass (`added_ma
 mesh, moves in a `Fluid`: a `Stepper` advances its `State`, or that of many bodies in a `Batch`, in a `Wind` or not.
 
 A `Scene` says all of it: `simulate` drops its body, `ensemble` drops it again and again, `sweep` does so for many scenes, on as
-many machines as there are.
+many machines as there are, and `crowd` tells how many bodies of it keep up with real time.
 
 SI units, radians. The world is right-handed with +Y up; the body frame has its origin at the centre of mass and the axes of
 the mesh. Six-vectors and 6x6 matrices have their linear part first, quaternions are x, y, z, w. Arrays that come out are
@@ -22,6 +22,7 @@ from ._native import (
     Batch,
     Body,
     Check,
+    Crowd,
     Directed,
     Ensemble,
     Flow,
@@ -42,6 +43,7 @@ from ._native import (
     __version__,
     added_mass,
     check,
+    crowd,
     direct,
     ensemble,
     regimes,
@@ -53,6 +55,7 @@ from ._native import (
 from .errors import (
     BakeError,
     LangevinRigidError,
+    LangevinRigidWarning,
     MeshError,
     SceneError,
     SetupError,
@@ -67,12 +70,14 @@ __all__ = [
     "Batch",
     "Body",
     "Check",
+    "Crowd",
     "DataSet",
     "Directed",
     "Ensemble",
     "Flow",
     "Fluid",
     "LangevinRigidError",
+    "LangevinRigidWarning",
     "Loads",
     "Mesh",
     "MeshError",
@@ -94,6 +99,7 @@ __all__ = [
     "__version__",
     "added_mass",
     "check",
+    "crowd",
     "direct",
     "ensemble",
     "normal",

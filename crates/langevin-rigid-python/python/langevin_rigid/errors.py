@@ -1,8 +1,9 @@
-"""What is raised. The words are those of the command."""
+"""What is raised and warned of. The words are those of the command."""
 
 __all__ = [
     "BakeError",
     "LangevinRigidError",
+    "LangevinRigidWarning",
     "MeshError",
     "SceneError",
     "SetupError",
@@ -39,3 +40,11 @@ class StepError(LangevinRigidError):
     def __init__(self, message: str, bodies: list[int] | None = None) -> None:
         super().__init__(message)
         self.bodies = bodies or []
+
+
+class LangevinRigidWarning(UserWarning):
+    """A call did what was asked, but its caller should know something: what the reader of a mesh file passed over, that a kept
+    bake was damaged and made anew, or that a bake could not be kept.
+
+    `warnings.filterwarnings("error", category=LangevinRigidWarning)` makes errors of them.
+    """

@@ -34,6 +34,9 @@ class Sweep:
     (`"release.tilt"`, `"body.mass"`, `"scatter.height"`); every combination of them is a point, with every scene and every
     seed of `seeds`, if given. `runs` is the number of runs of each point.
 
+    In the table a parameter has a column, its name with underscores for dots: of numbers, of lists of numbers where all its
+    values are such lists, else of words.
+
     >>> falls = Sweep("coin", runs=1000, parameters={"release.tilt": [0, 30, 60], "body.mass": [0.005, 0.01]})
     >>> falls.points, falls.total, falls.partitions
     (6, 6000, 1)
@@ -55,6 +58,7 @@ class Sweep:
         if seeds is not None:
             axes["run.seed"] = list(seeds)
         self.parameters = axes
+        self._told = {name: _told(values) for name, values in axes.items()}
         self.runs = _positive("runs", runs)
         self.partition = _positive("partition", partition)
         empty = [name for name, values in axes.items() if not values]
@@ -91,11 +95,14 @@ class Sweep:
 
     def values(self, point: int) -> dict[str, Any]:
         """The parameters of a point, by their names in the scene file; the last one changes fastest."""
-        values = {}
+        return {name: self.parameters[name][place] for name, place in self._places(point).items()}
+
+    def _places(self, point: int) -> dict[str, int]:
+        """Where among its values each parameter of a point is."""
+        places = {}
         for name, choices in reversed(self.parameters.items()):
-            point, place = divmod(point, len(choices))
-            values[name] = choices[place]
-        return dict(reversed(values.items()))
+            point, places[name] = divmod(point, len(choices))
+        return dict(reversed(places.items()))
 
     def scene(self, point: int) -> Scene:
         """The scene of a point."""
@@ -122,7 +129,8 @@ class Sweep:
         for point in range(first // self.runs, -(-last // self.runs)):
             start = point * self.runs
             scene = self.scene(point)
-            parameters = {_column(name): value for name, value in self.values(point).items() if name != "run.seed"}
+            places = self._places(point).items()
+            parameters = {_column(name): self._told[name][place] for name, place in places if name != "run.seed"}
             if len(self.scenes) > 1:
                 parameters = {"scene": scene.name, **parameters}
             yield point, scene, parameters, max(first - start, 0), min(last - start, self.runs)
@@ -267,6 +275,22 @@ _OTHER_COLUMNS = {"point", "scene", "seed", "run"}
 def _column(name: str) -> str:
     """The column of a parameter: its name without dots, which Parquet would take for parts of a structure."""
     return name.replace(".", "_")
+
+
+def _told(values: list[Any]) -> list[Any]:
+    """The values of a parameter as its column has them: numbers, lists of numbers, or words where they are of other kinds or
+    of several."""
+    plain = [_plain(value) for value in values]
+    if all(map(_is_number, plain)):
+        return plain
+    lists = [[_plain(part) for part in value] if isinstance(value, (list, tuple)) else None for value in plain]
+    if all(numbers is not None and all(map(_is_number, numbers)) for numbers in lists):
+        return lists
+    return [str(value) for value in plain]
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float))
 
 
 def _plain(value: Any) -> Any:

@@ -10,6 +10,9 @@ use super::lying::Lying;
 use super::statistics::face;
 use crate::prepared::Prepared;
 
+/// What a file of landings says of itself.
+pub const LANDINGS_ABOUT: &str = "landings of an ensemble; SI units and degrees; x, z and depth from the release point of the scene";
+
 /// A row for each fall, in their order; SI units and degrees.
 ///
 /// | columns | |

@@ -1,6 +1,8 @@
 //! An app without a window.
 #![allow(dead_code, unreachable_pub, missing_docs)]
 
+pub mod log;
+
 use std::time::{Duration, Instant};
 
 use bevy_app::{App, TaskPoolPlugin};
@@ -31,7 +33,11 @@ pub fn app() -> App {
 
 /// A sheet of A6 paper.
 pub fn sheet(app: &mut App) -> Handle<BakedBody> {
-    let body = Body::plate(0.148, 0.105, 1e-4, 750.0).unwrap();
+    asset(app, Body::plate(0.148, 0.105, 1e-4, 750.0).unwrap())
+}
+
+/// A body that the library makes, as an asset.
+pub fn asset(app: &mut App, body: Body) -> Handle<BakedBody> {
     app.world_mut()
         .resource_mut::<Assets<BakedBody>>()
         .add(body)

@@ -44,7 +44,12 @@ pub fn drop_card(app: &mut App, transform: Transform) -> Entity {
     let mut bodies = app.world_mut().resource_mut::<Assets<BakedBody>>();
     let body = bodies.add(card());
     let collider = Collider::cuboid(0.06, 0.0005, 0.09);
-    let card = (transform, Immersed::baked(body), RigidBody::Dynamic, collider);
+    let card = (
+        transform,
+        Immersed::baked(body),
+        RigidBody::Dynamic,
+        collider,
+    );
     app.world_mut().spawn(card).id()
 }
 
