@@ -24,6 +24,7 @@
 //!    [`NoiseStream`] of the body. [`run`] repeats it until the body reaches the ground or the time is up.
 //! 4. [`Batch`] holds many bodies of one shape. They step in SIMD lanes, and in [`Pack`]s on any number of threads.
 //! 5. [`Stepper::loads`] returns what acts on the body, by cause, as [`Loads`].
+//! 6. Where a physics engine has the contacts, [`Stepper::fly`] returns a step as velocities for it, a [`FreeFlight`].
 //!
 //! A step of any length is stable, allocates nothing and takes microseconds. What cannot be done is an error
 //! ([`SetupError`], [`StepError`], [`BatchError`]) that says what is wrong and leaves the state as it was.
@@ -73,6 +74,7 @@ mod choice;
 mod elementary;
 mod equations;
 mod fluid;
+mod free_flight;
 mod input;
 mod kirchhoff;
 mod lanes;
@@ -112,6 +114,7 @@ pub use body::{Body, BodyError, MOST_SLICES, Separation, Slice, Surface, shift_a
 pub use choice::{UnknownName, choose};
 pub use equations::SPEED_LIMIT;
 pub use fluid::{Fluid, GRAVITY};
+pub use free_flight::{ContactMass, FreeFlight};
 pub use input::{Flow, Input, Wrench};
 pub use loads::Loads;
 pub use noise::{NORMALS_PER_STEP, NoiseStream};

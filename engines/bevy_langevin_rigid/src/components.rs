@@ -131,6 +131,18 @@ pub struct ExternalWrench {
     pub torque: Vec3,
 }
 
+/// Marks a body that a physics engine moves, which has its contacts: the plugin steps it and leaves its `Transform` to the
+/// engine.
+///
+/// The engine's side gives it the mean velocities of each step ([`Stepped::flight`](crate::Stepped::flight)) and takes back
+/// what became of it ([`Stepped::set_state`](crate::Stepped::set_state)).
+#[derive(Component, Debug, Clone, Copy, PartialEq, Eq, Default, Reflect)]
+#[reflect(Component, Default, Clone, PartialEq)]
+pub struct Hosted {
+    /// Whether it lies still, and is not stepped.
+    pub asleep: bool,
+}
+
 /// Marks a body that cannot go on, since a number that the game or the settings gave it is not finite, or it became
 /// impossibly fast. The log has said why; it stays where it last was.
 ///

@@ -6,13 +6,16 @@ use bevy_ecs::system::{Query, Res};
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 
-use crate::components::Quarantined;
+use crate::components::{Hosted, Quarantined};
 use crate::stepped::Stepped;
 
 /// Draws bodies between their last two fixed steps, as far as the frame is.
 pub(crate) fn draw(
     time: Res<Time<Fixed>>,
-    mut bodies: Query<(&mut Stepped, &mut Transform), (Without<ChildOf>, Without<Quarantined>)>,
+    mut bodies: Query<
+        (&mut Stepped, &mut Transform),
+        (Without<ChildOf>, Without<Hosted>, Without<Quarantined>),
+    >,
 ) {
     let fraction = time.overstep_fraction_f64();
     bodies

@@ -27,8 +27,8 @@
 //!
 //! # Conventions
 //!
-//! SI units, angles in radians, +Y up, world frame. Bodies do not meet one another or the ground: their contacts are
-//! those of a physics engine, as wrenches.
+//! SI units, angles in radians, +Y up, world frame. Bodies do not meet one another or the ground: contacts are
+//! a physics engine's, to which a body is [`Hosted`].
 
 mod ambient;
 mod baked_body;
@@ -52,7 +52,7 @@ mod steps;
 pub use ambient::{AmbientWind, ImmersionSettings};
 pub use baked_body::{BakedBody, BakedBodyLoader, BakedBodyLoaderSettings, LoadError};
 pub use components::{
-    AngularVelocity, BodySource, ExternalWrench, Immersed, LinearVelocity, Quarantined,
+    AngularVelocity, BodySource, ExternalWrench, Hosted, Immersed, LinearVelocity, Quarantined,
 };
 pub use detail::LevelOfDetail;
 pub use plugin::{LangevinRigidPlugin, LangevinRigidSystems};

@@ -66,6 +66,7 @@ impl Plugin for LangevinRigidPlugin {
             .register_type::<crate::LinearVelocity>()
             .register_type::<crate::AngularVelocity>()
             .register_type::<crate::ExternalWrench>()
+            .register_type::<crate::Hosted>()
             .register_type::<crate::Quarantined>()
             .configure_sets(FixedUpdate, (Shed, Join, Read, Step, Write).chain())
             .configure_sets(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy_ecs::component::Component;
 use bevy_math::{DQuat, DVec3, Quat, Vec3};
 use bevy_transform::components::Transform;
-use langevin_rigid::{Input, State};
+use langevin_rigid::{FreeFlight, Input, State, Stepper};
 
 use crate::components::{AngularVelocity, LinearVelocity};
 use crate::medium::Medium;
@@ -90,6 +90,34 @@ impl Stepped {
     /// its way to this state until they have passed.
     pub fn state(&self) -> &State {
         &self.current
+    }
+
+    /// The body in the fluid that most of it is in; none for one that [falls plainly](Stepped::falls_plainly).
+    pub fn stepper(&self) -> Option<&Stepper> {
+        match (&self.mover, &self.medium) {
+            (Mover::Plain, _) => None,
+            (_, Medium::Region(immersion, surface))
+                if immersion.share(&self.current, surface) > 0.5 =>
+            {
+                Some(immersion.in_water())
+            }
+            (Mover::Immersed(mobility), _) => Some(&mobility.open),
+        }
+    }
+
+    /// Centre of mass in the frame of the mesh, before it is scaled (m).
+    pub fn centre_of_mass(&self) -> DVec3 {
+        self.centre_of_mass
+    }
+
+    /// The last fixed step, of `dt` (s), as velocities for a physics engine.
+    pub fn flight(&self, dt: f64) -> FreeFlight {
+        FreeFlight::between(&self.previous, &self.current, dt)
+    }
+
+    /// Puts a body that is [`Hosted`](crate::Hosted) where its engine has moved it.
+    pub fn set_state(&mut self, state: State) {
+        self.current = state;
     }
 
     /// Whether the body falls plainly, as in no fluid, since it could not be made.

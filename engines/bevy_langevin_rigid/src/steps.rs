@@ -9,7 +9,9 @@ use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 
 use crate::ambient::ImmersionSettings;
-use crate::components::{AngularVelocity, ExternalWrench, Immersed, LinearVelocity, Quarantined};
+use crate::components::{
+    AngularVelocity, ExternalWrench, Hosted, Immersed, LinearVelocity, Quarantined,
+};
 use crate::crowd::{self, Due, FixedStep};
 use crate::detail::View;
 use crate::regions::Surroundings;
@@ -36,7 +38,7 @@ pub(crate) fn come_to_rest_in_hand(
 pub(crate) fn read(
     mut bodies: Query<
         (&mut Stepped, &Transform, &LinearVelocity, &AngularVelocity),
-        (Without<ChildOf>, Without<Quarantined>),
+        (Without<ChildOf>, Without<Quarantined>, Without<Hosted>),
     >,
 ) {
     bodies
@@ -55,15 +57,15 @@ pub(crate) fn step(
     view: View,
     mut count: Local<u32>,
     mut bodies: Query<
-        (&mut Stepped, &Immersed, &ExternalWrench),
+        (&mut Stepped, &Immersed, &ExternalWrench, Option<&Hosted>),
         (Without<ChildOf>, Without<Quarantined>),
     >,
 ) {
     let dt = time.delta_secs_f64();
     let spans = view.spans();
     let mut due = Vec::new();
-    for (mut stepped, immersed, wrench) in &mut bodies {
-        if stepped.fault.is_some() {
+    for (mut stepped, immersed, wrench, hosted) in &mut bodies {
+        if stepped.fault.is_some() || hosted.is_some_and(|hosted| hosted.asleep) {
             continue;
         }
         let pushed = *wrench != ExternalWrench::default();
@@ -77,7 +79,8 @@ pub(crate) fn step(
         let number = immersed.number.unwrap_or(0);
         let position = stepped.state().position;
         let span = match &spans {
-            Some(spans) if !pushed => spans.of(position, number, *count),
+            // What a physics engine hosts, it moves at every step.
+            Some(spans) if !pushed && hosted.is_none() => spans.of(position, number, *count),
             _ => 1,
         };
         due.push(Due {
