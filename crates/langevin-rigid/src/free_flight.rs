@@ -5,8 +5,8 @@
 
 use crate::input::Input;
 use crate::linalg::{
-    Mat3, Quat, Vec3, add, dot, invert_spd, mat_vec, norm, quat_mul, rotation_matrix, scale, sub,
-    transposed_mat_vec,
+    Mat3, Quat, Vec3, add, add_scaled, dot, invert_spd, mat_vec, norm, quat_mul, rotation_matrix,
+    scale, sub, transposed_mat_vec,
 };
 use crate::state::State;
 use crate::stepper::{StepError, Stepper};
@@ -26,8 +26,8 @@ use crate::stepper::{StepError, Stepper};
 /// let solved = [x, 0.0, z];
 /// let position = [x * dt, 0.0, z * dt];
 /// state = flight.met(position, state.orientation, solved, flight.angular_velocity());
-/// // It keeps what velocity the step would have ended with, less what the contact took.
-/// assert!(state.world_velocity()[1].abs() < 0.1);
+/// // It lies on the ground.
+/// assert!(state.world_velocity()[1].abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,8 +74,10 @@ impl FreeFlight {
     }
 
     /// The state of a body that contacts have moved to `position` (centre of mass, m) and `orientation`, with the
-    /// velocities that they left of [`FreeFlight::velocity`] and [`FreeFlight::angular_velocity`] (world frame): what
-    /// they took from these they take from the velocities at the end of the step.
+    /// velocities that they left of [`FreeFlight::velocity`] and [`FreeFlight::angular_velocity`] (world frame).
+    ///
+    /// It has these and what the step would have gained over its mean velocities, but for a gain against what contacts did:
+    /// a body at rest on the ground stays at rest.
     #[must_use]
     pub fn met(
         &self,
@@ -84,7 +86,6 @@ impl FreeFlight {
         velocity: Vec3,
         angular_velocity: Vec3,
     ) -> State {
-        let left = |end, mean, solved| add(end, sub(solved, mean));
         let v = left(self.end.world_velocity(), self.velocity, velocity);
         let spin = self.end.world_angular_velocity();
         let omega = left(spin, self.angular_velocity, angular_velocity);
@@ -96,6 +97,20 @@ impl FreeFlight {
         state.set_world_velocities(v, omega);
         state
     }
+}
+
+/// What contacts leave of a velocity that has this mean over a step and this one at its `end`, if they turn the mean into
+/// `solved`.
+fn left(end: Vec3, mean: Vec3, solved: Vec3) -> Vec3 {
+    let (gain, change) = (sub(end, mean), sub(solved, mean));
+    let against = dot(gain, change).min(0.0);
+    let squared = dot(change, change);
+    let share = if squared > 0.0 {
+        -against / squared
+    } else {
+        0.0
+    };
+    add(solved, add_scaled(gain, share, change))
 }
 
 impl Stepper {
@@ -201,6 +216,25 @@ mod tests {
             assert_eq!(moved.step, end.step);
             state = *end;
         }
+    }
+
+    #[test]
+    fn a_contact_that_stops_a_body_leaves_it_at_rest_and_one_aside_leaves_it_falling() {
+        let state = State::default();
+        let flight = leaf().fly(&state, DT, &Input::default()).unwrap();
+        let (mean, spin) = (flight.velocity(), flight.angular_velocity());
+        let after = |velocity| {
+            let met = flight.met(state.position, state.orientation, velocity, spin);
+            met.world_velocity()
+        };
+        // The ground takes all of the fall.
+        assert!(norm(after([mean[0], 0.0, mean[2]])) < 1e-12);
+        // It is thrown up from the ground.
+        assert!((after([0.0, 0.5, 0.0])[1] - 0.5).abs() < 1e-12);
+        // A wall pushes it aside, and it falls on.
+        let aside = after(add(mean, [0.3, 0.0, 0.0]));
+        let end = flight.end().world_velocity();
+        assert!((aside[1] - end[1]).abs() < 1e-12 && (aside[0] - end[0] - 0.3).abs() < 1e-12);
     }
 
     #[test]

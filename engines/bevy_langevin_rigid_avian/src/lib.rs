@@ -4,8 +4,8 @@
 //!
 //! In `FixedUpdate` the body takes the step in the fluid alone. Avian, in `FixedPostUpdate`, gets the mean velocities of it,
 //! and as mass and inertia those of the body with the fluid that it moves, along the normal of what it touches or, where it
-//! touches nothing, along the vertical. A body that met nothing is then where the fluid took it, in double precision; of
-//! another, contacts take from the velocities at the end of the step what they took from the mean ones.
+//! touches nothing, along the vertical. A body that met nothing is then where the fluid took it, in double precision;
+//! another has what contacts left of these velocities (`FreeFlight::met`).
 //!
 //! What that leaves out: along a surface a body has the mass that it has towards it, so that friction stops it later than it
 //! should where the two differ; and a contact off the centre of a body without symmetry feels no coupling of turning and

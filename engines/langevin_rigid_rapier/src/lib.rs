@@ -9,7 +9,7 @@
 //!    touches or, where it touches nothing, along the vertical ([`Stepper::contact_mass`]).
 //! 2. `PhysicsPipeline::step`.
 //! 3. [`ImmersedBodies::after_step`]: a body that met nothing is where the fluid took it, to the last bit of double
-//!    precision; of another, contacts take from the velocities at the end of the step what they took from the mean ones.
+//!    precision; another has what contacts left of these velocities (`FreeFlight::met`).
 //!
 //! What that leaves out: along a surface a body has the mass that it has towards it, so that friction stops it later than it
 //! should where the two differ; and a contact off the centre of a body without symmetry feels no coupling of turning and
