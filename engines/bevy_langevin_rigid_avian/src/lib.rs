@@ -13,7 +13,8 @@
 //!
 //! # Sleep
 //!
-//! Avian lets bodies sleep and wakes them. One that sleeps is woken also by an [`AmbientWind`] or an [`ExternalWrench`] that
+//! Avian lets bodies sleep that turn slower than 2 rad/s (a `SleepThreshold`, to be changed once a body is `Hosted`) and wakes
+//! them. One that sleeps is woken also by an [`AmbientWind`] or an [`ExternalWrench`] that
 //! would move it, by [`STIRRING`] of its weight in the fluid.
 //!
 //! [`AmbientWind`]: bevy_langevin_rigid::AmbientWind

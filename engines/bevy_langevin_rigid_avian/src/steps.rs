@@ -4,7 +4,7 @@ use avian3d::math::SymmetricMatrix3;
 use avian3d::prelude::{
     AngularVelocity, Collisions, ComputedAngularInertia, ComputedCenterOfMass, ComputedMass,
     CustomVelocityIntegration, LinearVelocity, NoAutoAngularInertia, NoAutoCenterOfMass,
-    NoAutoMass, Position, RigidBody, Rotation, Sleeping,
+    NoAutoMass, Position, RigidBody, Rotation, SleepThreshold, Sleeping,
 };
 use bevy_ecs::entity::Entity;
 use bevy_ecs::query::{Has, With, Without};
@@ -17,6 +17,13 @@ use bevy_transform::components::Transform;
 
 use crate::convert;
 use crate::handed::Handed;
+
+/// Below this a body is still. Avian's own angular threshold is for bodies of a metre; at 2 rad/s the rim of a leaf moves at a
+/// tenth of a metre a second.
+const RESTING: SleepThreshold = SleepThreshold {
+    linear: 0.15,
+    angular: 2.0,
+};
 
 /// Bodies of both plugins.
 type New = (With<Stepped>, Without<Handed>);
@@ -32,6 +39,7 @@ pub(crate) fn host(bodies: Query<(Entity, &RigidBody), New>, mut commands: Comma
                 NoAutoMass,
                 NoAutoAngularInertia,
                 NoAutoCenterOfMass,
+                RESTING,
             ));
         }
     }
