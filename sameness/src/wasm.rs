@@ -1,5 +1,9 @@
 //! What `hashes.mjs` calls.
-#![allow(unsafe_code, reason = "exported names are unsafe attributes")]
+#![allow(
+    unsafe_code,
+    unreachable_pub,
+    reason = "exported names are unsafe attributes, and of a private module"
+)]
 
 use std::sync::LazyLock;
 
