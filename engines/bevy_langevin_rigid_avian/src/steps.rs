@@ -153,7 +153,8 @@ pub(crate) fn hand_over(
     }
 }
 
-/// Takes what Avian made of the step.
+/// Takes what Avian made of the step; also of bodies that fell asleep in it, whose own components are left alone, since a
+/// change would wake them.
 pub(crate) fn take_back(
     mut bodies: Query<
         (
@@ -164,14 +165,23 @@ pub(crate) fn take_back(
             &mut Rotation,
             &mut LinearVelocity,
             &mut AngularVelocity,
+            Has<Sleeping>,
         ),
-        (With<Hosted>, Without<Sleeping>),
+        With<Hosted>,
     >,
     time: Res<Time<Fixed>>,
 ) {
     let dt = time.delta_secs_f64();
-    for (mut stepped, mut handed, transform, mut position, mut rotation, mut v, mut omega) in
-        &mut bodies
+    for (
+        mut stepped,
+        mut handed,
+        transform,
+        mut position,
+        mut rotation,
+        mut v,
+        mut omega,
+        asleep,
+    ) in &mut bodies
     {
         if !std::mem::take(&mut handed.flies) {
             continue;
@@ -180,12 +190,14 @@ pub(crate) fn take_back(
         if handed.is_accelerated(&v, &omega) {
             let met = met(&stepped.flight(dt), arm, *position, *rotation, *v, *omega);
             stepped.set_state(met);
-        } else {
+        } else if !asleep {
             (*position, *rotation) = convert::pose(stepped.state(), arm);
         }
-        let state = stepped.state();
-        *v = convert::velocity(state.world_velocity());
-        *omega = convert::spin(state.world_angular_velocity());
+        if !asleep {
+            let state = stepped.state();
+            *v = convert::velocity(state.world_velocity());
+            *omega = convert::spin(state.world_angular_velocity());
+        }
         *handed = Handed {
             position: *position,
             rotation: *rotation,
