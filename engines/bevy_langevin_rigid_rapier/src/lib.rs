@@ -1,0 +1,37 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # A step
+//!
+//! All in `FixedUpdate`: the body takes the step in the fluid alone; Rapier gets the mean velocities of it, and as mass and
+//! inertia those of the body with the fluid that it moves, along the normal of what it touches or, where it touches nothing,
+//! along the vertical. A body that met nothing is then where the fluid took it, in double precision; another has what
+//! contacts left of these velocities (`FreeFlight::met`).
+//!
+//! What a game sets in `FixedUpdate` for the coming step, it sets before [`LangevinRigidSystems::Read`].
+//!
+//! What that leaves out: along a surface a body has the mass that it has towards it, so that friction stops it later than it
+//! should where the two differ; and a contact off the centre of a body without symmetry feels no coupling of turning and
+//! moving.
+//!
+//! # Sleep
+//!
+//! Rapier lets bodies sleep and wakes them. A body that comes without a `Sleeping` gets one for small bodies: it sleeps once
+//! none of its points has moved faster than some 0.15 m/s for half a second (and 2 rad/s, for a body without colliders). One
+//! that sleeps is woken also by an [`AmbientWind`] or an [`ExternalWrench`] that would move it, by [`STIRRING`] of its weight
+//! in the fluid.
+//!
+//! [`AmbientWind`]: bevy_langevin_rigid::AmbientWind
+//! [`ExternalWrench`]: bevy_langevin_rigid::ExternalWrench
+//! [`LangevinRigidSystems::Read`]: bevy_langevin_rigid::LangevinRigidSystems::Read
+
+#![allow(clippy::type_complexity, reason = "a query names all that it reads")]
+
+mod convert;
+mod handed;
+mod plugin;
+mod steps;
+mod stir;
+mod timestep;
+
+pub use plugin::LangevinRigidRapierPlugin;
+pub use stir::STIRRING;
