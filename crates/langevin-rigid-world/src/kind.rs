@@ -1,6 +1,6 @@
 //! What bodies of one kind share.
 
-use langevin_rigid::linalg::vector::{add, norm, sub};
+use langevin_rigid::linalg::vector::sub;
 use langevin_rigid::linalg::{Mat6, rotate_back};
 use langevin_rigid::wind::Wind;
 use langevin_rigid::{Flow, Input, State, StepError, Stepper};
@@ -148,9 +148,6 @@ impl Kind {
             flow,
             ..Input::default()
         };
-        let loads = self.stepper().loads(state, &input);
-        let heavy = add(loads.weight.force, loads.buoyancy.force);
-        let push = sub(loads.sum().force, heavy);
-        norm(push) > BLOWN * norm(heavy)
+        self.stepper().loads(state, &input).push_to_weight() > BLOWN
     }
 }

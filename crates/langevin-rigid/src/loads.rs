@@ -6,7 +6,7 @@ use crate::input::{Forcing, Input, Wrench};
 use crate::kirchhoff::Motion;
 use crate::langevin::Langevin;
 use crate::linalg::{
-    Quat, Vec3, Vec6, add, cross, join, matrix_of, mul, rotate, rotate_back, scale, split, sub,
+    Quat, Vec3, Vec6, add, cross, join, matrix_of, mul, norm, rotate, rotate_back, scale, split, sub,
 };
 use crate::separated::Eddies;
 use crate::state::State;
@@ -88,6 +88,27 @@ impl Loads {
                 force: add(sum.force, wrench.force),
                 torque: add(sum.torque, wrench.torque),
             })
+    }
+}
+
+impl Loads {
+    /// Force of all but weight and buoyancy, as a share of the weight in the fluid: what friction has to hold of a body that
+    /// lies still, and by which an engine wakes one that sleeps. Not a number where nothing acts on a body without weight.
+    ///
+    /// ```
+    /// use langevin_rigid::{Body, Flow, Fluid, Input, Settings, State, Stepper};
+    /// let leaf = Body::plate(0.08, 0.05, 0.2e-3, 450.0)?;
+    /// let stepper = Stepper::new(&leaf, &Fluid::AIR, None, &Settings::default())?;
+    /// let push = |wind| {
+    ///     let input = Input { flow: Flow::uniform([wind, 0.0, 0.0]), ..Input::default() };
+    ///     stepper.loads(&State::default(), &input).push_to_weight()
+    /// };
+    /// assert!(push(0.1) < 0.05 && push(5.0) > 0.3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn push_to_weight(&self) -> f64 {
+        let weight = add(self.weight.force, self.buoyancy.force);
+        norm(sub(self.sum().force, weight)) / norm(weight)
     }
 }
 

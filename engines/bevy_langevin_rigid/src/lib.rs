@@ -37,7 +37,10 @@ mod components;
 mod crowd;
 mod detail;
 mod draw;
+#[cfg(feature = "gizmos")]
+mod gizmos;
 mod join;
+mod loads;
 mod medium;
 mod plain_fall;
 mod plugin;
@@ -48,6 +51,7 @@ mod shedding;
 mod stepped;
 mod steppers;
 mod steps;
+mod winds;
 
 pub use ambient::{AmbientWind, ImmersionSettings};
 pub use baked_body::{BakedBody, BakedBodyLoader, BakedBodyLoaderSettings, LoadError};
@@ -55,10 +59,14 @@ pub use components::{
     AngularVelocity, BodySource, ExternalWrench, Hosted, Immersed, LinearVelocity, Quarantined,
 };
 pub use detail::LevelOfDetail;
+#[cfg(feature = "gizmos")]
+pub use gizmos::{ForceGizmos, ForceGizmosPlugin, ShowForces};
+pub use loads::BodyLoads;
 pub use plugin::{LangevinRigidPlugin, LangevinRigidSystems};
-pub use regions::{Extent, Fan, FluidRegion};
+pub use regions::{Extent, FluidRegion};
 pub use shedding::{Crown, DropLeaves, Leaf, LeafLimit, LeavesShed, ShedFrom};
 pub use stepped::Stepped;
+pub use winds::{Fan, LocalWind};
 
 /// The library that the plugin steps bodies with.
 pub use langevin_rigid;

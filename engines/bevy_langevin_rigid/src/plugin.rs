@@ -15,7 +15,7 @@ use crate::detail::LevelOfDetail;
 use crate::regions::Surroundings;
 use crate::shedding::{DropLeaves, LeafLimit, Shedding};
 use crate::steppers::Steppers;
-use crate::{baking, draw, join, quarantine, regions, shedding, steppers, steps};
+use crate::{baking, draw, join, quarantine, regions, shedding, steppers, steps, winds};
 
 /// Moves bodies that are [`Immersed`](crate::Immersed).
 ///
@@ -79,6 +79,7 @@ impl Plugin for LangevinRigidPlugin {
                     (shedding::receive, shedding::shed).chain().in_set(Shed),
                     (
                         regions::survey,
+                        winds::survey,
                         steppers::renew,
                         baking::forget_changed_meshes
                             .run_if(resource_exists::<Messages<AssetEvent<Mesh>>>),

@@ -1,24 +1,20 @@
-//! Where which fluid is: lakes and seas under the fluid around all, and what fans blow.
+//! Where which fluid is: lakes and seas under the fluid around all.
 
 use std::sync::Arc;
 
-use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
-use bevy_ecs::reflect::ReflectComponent;
 use bevy_ecs::resource::Resource;
-use bevy_ecs::system::{Local, Query, Res, ResMut};
-use bevy_log::error;
+use bevy_ecs::system::{Local, Query, ResMut};
 use bevy_math::{DVec2, DVec3, Vec3};
-use bevy_reflect::Reflect;
 use bevy_transform::components::{GlobalTransform, Transform};
 use bevy_transform::helper::TransformHelper;
 use langevin_rigid::Fluid;
-use langevin_rigid::wind::{Jet, Wind, WindError};
+use langevin_rigid::wind::Wind;
 use langevin_rigid_world::water::{WaterError, WaterSurface};
 
-use crate::ambient::AmbientWind;
 use crate::said::Said;
+use crate::winds::Blowing;
 
 /// A part of space that is filled with another fluid than that of [`ImmersionSettings`](crate::ImmersionSettings), such as a
 /// lake: a denser fluid under a calm, level surface.
@@ -78,32 +74,17 @@ impl FluidRegion {
     }
 }
 
-/// A fan: blows a round turbulent jet from its entity forwards, along -z of the entity, on top of the
-/// [`AmbientWind`] ([`Jet`]).
-///
-/// The jet spreads, slows down and draws in the fluid around it; nothing stands in its way. It is in the fluid of
-/// [`ImmersionSettings`](crate::ImmersionSettings) alone, not in a [`FluidRegion`]. A fan that cannot be is an error in the
-/// log, and does not blow until it is mended.
-#[derive(Component, Debug, Clone, Copy, PartialEq, Reflect)]
-#[reflect(Component, Clone, PartialEq)]
-#[require(Transform)]
-pub struct Fan {
-    /// Speed in the middle of the fan (m/s).
-    pub speed: f32,
-    /// Diameter (m), before it is scaled with the entity.
-    pub diameter: f32,
-}
-
 /// What is around the bodies in the coming step.
 #[derive(Resource, Default)]
 pub(crate) struct Surroundings {
-    /// Of the game and of all fans.
+    /// Of the game, of all fans and of local winds.
     pub(crate) wind: Wind,
     /// The fluids of the regions, each once and without its velocity.
     pub(crate) fluids: Vec<Fluid>,
     /// From the highest surface down.
     regions: Vec<Region>,
-    fans: Vec<Jet>,
+    /// Of fans and local winds.
+    pub(crate) blowing: Vec<Blowing>,
 }
 
 /// A region made ready.
@@ -228,19 +209,10 @@ impl Surroundings {
     }
 }
 
-/// Says what is wrong with an entity, once.
-fn tell(said: &mut Said, entity: Entity, what: &str, fault: &str) {
-    if said.is_new(entity, fault) {
-        error!("{what} {entity} cannot be: {fault}. It is left out until this is mended");
-    }
-}
-
-/// Finds where regions and fans are, whether or not transforms were propagated since they moved.
+/// Finds where regions are, whether or not transforms were propagated since they moved.
 pub(crate) fn survey(
     regions: Query<(Entity, &FluidRegion)>,
-    fans: Query<(Entity, &Fan)>,
     transforms: TransformHelper,
-    ambient: Res<AmbientWind>,
     mut around: ResMut<Surroundings>,
     mut said: Local<Said>,
 ) {
@@ -255,7 +227,7 @@ pub(crate) fn survey(
                 said.is_sound(entity);
                 found.push((entity, region));
             }
-            Err(error) => tell(&mut said, entity, "the fluid region", &error.to_string()),
+            Err(error) => said.tell(entity, "the fluid region", &error.to_string()),
         }
     }
     found.sort_by(|(a, p), (b, q)| {
@@ -264,49 +236,4 @@ pub(crate) fn survey(
     });
     around.know(found.iter().map(|(_, region)| region));
     around.regions = found.into_iter().map(|(_, region)| region).collect();
-
-    let mut blowing: Vec<(Entity, Jet)> = Vec::new();
-    for (entity, fan) in &fans {
-        let Ok(transform) = transforms.compute_global_transform(entity) else {
-            continue;
-        };
-        let jet = jet(fan, &transform);
-        match Wind::default().add(jet) {
-            Ok(()) => {
-                said.is_sound(entity);
-                blowing.push((entity, jet));
-            }
-            Err(error) => tell(&mut said, entity, "the fan", &error.to_string()),
-        }
-    }
-    blowing.sort_by_key(|(entity, _)| *entity);
-    let fans: Vec<Jet> = blowing.into_iter().map(|(_, jet)| jet).collect();
-    if fans != around.fans || ambient.is_changed() {
-        match sum(&ambient.0, &fans) {
-            Ok(wind) => around.wind = wind,
-            // Each was added alone before.
-            Err(error) => error!("the fans cannot be added to the wind: {error}"),
-        }
-        around.fans = fans;
-    }
-}
-
-fn jet(fan: &Fan, transform: &GlobalTransform) -> Jet {
-    let scale = transform.scale().abs().max_element();
-    Jet {
-        centre: transform.translation().as_dvec3().to_array(),
-        axis: (transform.affine().matrix3 * Vec3::NEG_Z)
-            .as_dvec3()
-            .to_array(),
-        speed: fan.speed.into(),
-        diameter: (fan.diameter * scale).into(),
-    }
-}
-
-fn sum(ambient: &Wind, fans: &[Jet]) -> Result<Wind, WindError> {
-    let mut wind = ambient.clone();
-    for fan in fans {
-        wind.add(*fan)?;
-    }
-    Ok(wind)
 }

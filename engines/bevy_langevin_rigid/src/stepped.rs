@@ -20,7 +20,7 @@ pub struct Stepped {
     pub(crate) shape: Option<Shape>,
     /// Why it cannot go on.
     pub(crate) fault: Option<String>,
-    medium: Medium,
+    pub(crate) medium: Medium,
     current: State,
     previous: State,
     /// How many fixed steps lie between the two, and how many of these have passed.
@@ -297,6 +297,13 @@ impl Stepped {
         self.written.rotation = transform.rotation;
     }
 
+    /// Where the centre of mass is drawn.
+    #[cfg(feature = "gizmos")]
+    pub(crate) fn drawn_centre(&self, transform: &Transform) -> Vec3 {
+        let arm = transform.scale.as_dvec3() * self.centre_of_mass;
+        transform.translation + (transform.rotation.as_dquat() * arm).as_vec3()
+    }
+
     /// Puts the entity back to where it last was.
     pub(crate) fn restore(
         &self,
@@ -317,15 +324,21 @@ pub(crate) fn not_finite(transform: &Transform) -> String {
     )
 }
 
+/// No light body is given more than this (m/s, rad/s); what is more is a mistake, and would end in numbers that are not finite.
+const FASTEST: f32 = 1e4;
+const FASTEST_SPIN: f32 = 1e6;
+
 fn check_velocities(
     velocity: LinearVelocity,
     angular_velocity: AngularVelocity,
 ) -> Result<(), String> {
-    if velocity.0.is_finite() && angular_velocity.0.is_finite() {
+    let (speed, spin) = (velocity.0.length(), angular_velocity.0.length());
+    if speed <= FASTEST && spin <= FASTEST_SPIN {
         return Ok(());
     }
     Err(format!(
-        "its `LinearVelocity` or `AngularVelocity` has a number that is not finite ({}, {})",
+        "its `LinearVelocity` ({}) or `AngularVelocity` ({}) has a number that is not finite, or is more than {FASTEST} m/s or \
+         {FASTEST_SPIN} rad/s",
         velocity.0, angular_velocity.0
     ))
 }

@@ -16,7 +16,7 @@ use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 
 use common::log::{errors, listening};
-use common::{app, asset, at_height, joined, sheet, state, steps};
+use common::{app, asset, at_height, joined, state, steps};
 
 /// One second of fixed steps.
 const SECOND: usize = 64;
@@ -243,34 +243,6 @@ fn a_region_is_where_its_parent_is_now() {
         .x = 10.0;
     steps(&mut app, SECOND / 4);
     assert!(state(&app, entity).world_velocity()[1] > 0.1);
-}
-
-#[test]
-fn a_fan_blows_forwards() {
-    let blown = |turn: Quat| {
-        let mut app = app();
-        let fan = Fan {
-            speed: 4.0,
-            diameter: 0.5,
-        };
-        app.world_mut()
-            .spawn((fan, at_height(0.0).with_rotation(turn)));
-        let ahead = 0.5 * (turn * Vec3::NEG_Z);
-        let body = sheet(&mut app);
-        let place = Transform::from_translation(ahead);
-        let entity = app.world_mut().spawn((Immersed::baked(body), place)).id();
-        steps(&mut app, SECOND / 2);
-        Vec3::from_array(state(&app, entity).world_velocity().map(|v| v as f32))
-            .dot(ahead.normalize())
-    };
-    for turn in [
-        Quat::IDENTITY,
-        Quat::from_rotation_y(1.0),
-        Quat::from_rotation_y(-2.5),
-    ] {
-        let along = blown(turn);
-        assert!(along > 0.5, "{turn}: {along}");
-    }
 }
 
 #[test]

@@ -1,53 +1,31 @@
-//! Wind and wrenches wake what they would move.
+//! Wind, currents and wrenches wake what they would move.
 
 use avian3d::prelude::{Sleeping, WakeBody};
 use bevy_ecs::entity::Entity;
 use bevy_ecs::query::With;
-use bevy_ecs::system::{Commands, Query, Res};
-use bevy_langevin_rigid::langevin_rigid::{Input, Wrench};
-use bevy_langevin_rigid::{AmbientWind, ExternalWrench, Hosted, ImmersionSettings, Stepped};
-use bevy_math::DVec3;
-use bevy_time::{Fixed, Time};
+use bevy_ecs::system::{Commands, Local, Query};
+use bevy_langevin_rigid::{BodyLoads, ExternalWrench, Hosted, Stepped};
 
 /// Share of its weight in the fluid by which the fluid and the wrench must push a sleeping body to wake it.
 pub const STIRRING: f64 = 0.3;
 
-/// Wakes bodies that sleep in a wind that would move them.
+/// Fixed steps between two looks at a sleeping body.
+const LOOKS: u32 = 8;
+
+/// Wakes bodies that sleep where they would be moved. Looks at each now and then.
 pub(crate) fn stir(
-    time: Res<Time<Fixed>>,
-    wind: Res<AmbientWind>,
-    settings: Res<ImmersionSettings>,
     bodies: Query<(Entity, &Stepped, &ExternalWrench), (With<Sleeping>, With<Hosted>)>,
+    loads: BodyLoads,
+    mut step: Local<u32>,
     mut commands: Commands,
 ) {
-    for (entity, stepped, wrench) in &bodies {
-        let still = wind.0.is_empty() && *wrench == ExternalWrench::default();
-        let Some(stepper) = stepped.stepper().filter(|_| !still) else {
+    *step = (*step + 1) % LOOKS;
+    for (number, (entity, stepped, wrench)) in (*step..).zip(&bodies) {
+        if !number.is_multiple_of(LOOKS) || loads.is_calm(stepped, wrench) {
             continue;
-        };
-        let position = stepped.state().position;
-        let input = Input {
-            flow: wind
-                .0
-                .flow(position, time.elapsed_secs_f64(), settings.fluid.velocity),
-            wrench: Wrench {
-                force: wrench.force.as_dvec3().to_array(),
-                torque: wrench.torque.as_dvec3().to_array(),
-            },
-            ..Input::default()
-        };
-        let loads = stepper.loads(stepped.state(), &input);
-        let held = DVec3::from(loads.weight.force) + DVec3::from(loads.buoyancy.force);
-        let pushed = [
-            loads.drag.force,
-            loads.normal_force.force,
-            loads.rotational_lift.force,
-            loads.friction.force,
-            loads.fluid_acceleration.force,
-            loads.outside.force,
-        ];
-        let pushed: DVec3 = pushed.map(DVec3::from).into_iter().sum();
-        if pushed.length() > STIRRING * held.length() {
+        }
+        let loads = loads.of(stepped, wrench);
+        if loads.is_some_and(|loads| loads.push_to_weight() > STIRRING) {
             commands.queue(WakeBody(entity));
         }
     }

@@ -80,21 +80,7 @@ impl Body {
 
     /// Whether the fluid moves the body where it lies.
     pub(crate) fn is_stirred(&self, input: &Input) -> bool {
-        let loads = self.stepper.loads(&self.state, input);
-        let sum = |causes: &[[f64; 3]]| -> f64 {
-            let axis = |i: usize| causes.iter().map(|force| force[i]).sum::<f64>();
-            (0..3).map(|i| axis(i) * axis(i)).sum::<f64>().sqrt()
-        };
-        let held = [loads.weight.force, loads.buoyancy.force];
-        let fluid = [
-            loads.drag.force,
-            loads.normal_force.force,
-            loads.rotational_lift.force,
-            loads.friction.force,
-            loads.fluid_acceleration.force,
-            loads.outside.force,
-        ];
-        sum(&fluid) > STIRRING * sum(&held)
+        self.stepper.loads(&self.state, input).push_to_weight() > STIRRING
     }
 
     /// The step in the fluid alone, as velocities for Rapier.

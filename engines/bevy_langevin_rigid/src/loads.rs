@@ -1,0 +1,91 @@
+//! What acts on bodies, by cause.
+
+use bevy_ecs::system::{Res, SystemParam};
+use bevy_time::{Fixed, Time};
+use langevin_rigid::linalg::Vec3;
+use langevin_rigid::linalg::vector::{add, scale};
+use langevin_rigid::{Input, Loads, Wrench};
+
+use crate::ambient::ImmersionSettings;
+use crate::components::ExternalWrench;
+use crate::medium::Medium;
+use crate::regions::Surroundings;
+use crate::stepped::{Mover, Stepped};
+
+/// The loads on bodies by cause, for systems that show or sound them.
+///
+/// ```
+/// use bevy_ecs::prelude::*;
+/// use bevy_langevin_rigid::{BodyLoads, ExternalWrench, Stepped};
+/// fn rustle(bodies: Query<(&Stepped, &ExternalWrench)>, loads: BodyLoads) {
+///     for (body, wrench) in &bodies {
+///         if let Some(loads) = loads.of(body, wrench) {
+///             let _drag = loads.drag.force;
+///         }
+///     }
+/// }
+/// ```
+#[derive(SystemParam)]
+pub struct BodyLoads<'w> {
+    settings: Res<'w, ImmersionSettings>,
+    around: Res<'w, Surroundings>,
+    time: Res<'w, Time<Fixed>>,
+}
+
+impl BodyLoads<'_> {
+    /// Whether a body is in the fluid around all with no wind there, and nothing pushes it.
+    pub fn is_calm(&self, body: &Stepped, wrench: &ExternalWrench) -> bool {
+        let open = !matches!(body.medium, Medium::Region(..));
+        let still = self.around.wind.is_empty() && self.settings.fluid.velocity == [0.0; 3];
+        open && still && *wrench == ExternalWrench::default()
+    }
+
+    /// Those on a body in its [state](Stepped::state); none on one that falls plainly.
+    ///
+    /// On a body that crosses the surface of a [`FluidRegion`](crate::FluidRegion) they are those in the two fluids, by
+    /// the share of its volume that is in each: exact for forces of weight and buoyancy, an estimate of all else.
+    pub fn of(&self, body: &Stepped, wrench: &ExternalWrench) -> Option<Loads> {
+        let Mover::Immersed(mobility) = &body.mover else {
+            return None;
+        };
+        let state = body.state();
+        let now = self.time.elapsed_secs_f64();
+        let mut input = Input::default();
+        input.wrench.force = wrench.force.as_dvec3().to_array();
+        input.wrench.torque = wrench.torque.as_dvec3().to_array();
+        if !self.around.wind.is_empty() {
+            let stream = self.settings.fluid.velocity;
+            input.flow = self.around.wind.flow(state.position, now, stream);
+        }
+        let open = mobility.open.loads(state, &input);
+        let Medium::Region(immersion, surface) = &body.medium else {
+            return Some(open);
+        };
+        input.flow = surface.flow(state.position, state.time);
+        let under = immersion.in_water().loads(state, &input);
+        Some(mixture(&open, &under, immersion.share(state, surface)))
+    }
+}
+
+/// The loads of which a share is that of `b`.
+fn mixture(a: &Loads, b: &Loads, share: f64) -> Loads {
+    let vector = |a: Vec3, b: Vec3| add(scale(1.0 - share, a), scale(share, b));
+    let mix = |a: Wrench, b: Wrench| Wrench {
+        force: vector(a.force, b.force),
+        torque: vector(a.torque, b.torque),
+    };
+    Loads {
+        weight: mix(a.weight, b.weight),
+        buoyancy: mix(a.buoyancy, b.buoyancy),
+        added_mass: mix(a.added_mass, b.added_mass),
+        drag: mix(a.drag, b.drag),
+        normal_force: mix(a.normal_force, b.normal_force),
+        rotational_lift: mix(a.rotational_lift, b.rotational_lift),
+        damping: mix(a.damping, b.damping),
+        lost_couple: mix(a.lost_couple, b.lost_couple),
+        friction: mix(a.friction, b.friction),
+        turbulence: mix(a.turbulence, b.turbulence),
+        fluid_acceleration: mix(a.fluid_acceleration, b.fluid_acceleration),
+        outside: mix(a.outside, b.outside),
+    }
+}
