@@ -1,3 +1,6 @@
+import contextlib
+import signal
+
 import numpy as np
 import pytest
 
@@ -17,6 +20,29 @@ def stepper(leaf: lr.Body) -> lr.Stepper:
 @pytest.fixture
 def cube() -> lr.Mesh:
     return lr.Mesh.shape("box", size=[0.1, 0.1, 0.1], triangles=300)
+
+
+@pytest.fixture
+def interrupted_after():
+    """Interrupts what runs in it after some seconds, as Ctrl-C does, which programs in the background may not hear."""
+    if not hasattr(signal, "setitimer"):
+        pytest.skip("sends itself a signal by a timer of Unix")
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    @contextlib.contextmanager
+    def interrupted(seconds: float):
+        before = signal.signal(signal.SIGALRM, interrupt)
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        try:
+            with pytest.raises(KeyboardInterrupt):
+                yield
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+
+    return interrupted
 
 
 @pytest.fixture

@@ -1,7 +1,6 @@
 """Long calls let other threads run and end at Ctrl-C."""
 
 import multiprocessing
-import signal
 import threading
 import time
 
@@ -30,25 +29,11 @@ def long_calls():
     }
 
 
-@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="sends itself a signal by a timer of Unix")
 @pytest.mark.parametrize("name", ["added_mass", "bake", "turbulence", "steps", "batch", "crowd"])
-def test_ctrl_c_ends_a_long_call(name):
+def test_ctrl_c_ends_a_long_call(name, interrupted_after):
     call = long_calls()[name]
-
-    def interrupt(*_):
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGALRM, interrupt)
-    after = 0.3
-    started = time.monotonic()
-    signal.setitimer(signal.ITIMER_REAL, after)
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            call()
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
-    assert after <= time.monotonic() - started < after + 2.0
+    with interrupted_after(0.3):
+        call()
 
 
 def test_other_threads_run_meanwhile():

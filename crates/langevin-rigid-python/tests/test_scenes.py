@@ -161,17 +161,12 @@ def test_tables_are_written(tmp_path):
             assert same.all(), name
 
 
-def test_a_journal_goes_on_where_it_stopped(tmp_path):
+def test_a_journal_goes_on_where_it_stopped(tmp_path, interrupted_after):
     journal = tmp_path / "falls.journal"
     whole = lr.ensemble(BALL, 60, scatter={"velocity": 0.1}).landings.to_pandas()
     # What a stopped call leaves behind is made by one that is stopped.
-    import _thread
-    import threading
-
     slow = {**BALL, "run": {"time_step": 1e-6, "ground": 0.0}}
-    timer = threading.Timer(0.5, _thread.interrupt_main)
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
+    with interrupted_after(0.5):
         lr.ensemble(slow, 100_000, journal=journal)
     assert journal.exists()
     with pytest.raises(lr.SceneError, match="another scene, seed or version"):

@@ -6,7 +6,8 @@ use crate::input::{Forcing, Input, Wrench};
 use crate::kirchhoff::Motion;
 use crate::langevin::Langevin;
 use crate::linalg::{
-    Quat, Vec3, Vec6, add, cross, join, matrix_of, mul, norm, rotate, rotate_back, scale, split, sub,
+    Quat, Vec3, Vec6, add, cross, join, matrix_of, mul, norm, rotate, rotate_back, scale, split,
+    sub,
 };
 use crate::separated::Eddies;
 use crate::state::State;

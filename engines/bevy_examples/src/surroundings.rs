@@ -9,7 +9,7 @@ pub fn sun(commands: &mut Commands, sky: Color) {
     commands.insert_resource(ClearColor(sky));
     commands.insert_resource(GlobalAmbientLight {
         color: sky,
-        brightness: 500.0,
+        brightness: 2_000.0,
         ..default()
     });
     commands.spawn((

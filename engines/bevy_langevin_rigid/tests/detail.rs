@@ -292,7 +292,7 @@ fn without_a_viewer_all_bodies_are_near() {
                 .get_mut::<Transform>(viewer)
                 .unwrap()
                 .translation
-                .x = f32::NAN
+                .x = f32::NAN;
         },
     ];
     for lose in lost {

@@ -24,7 +24,6 @@
 //! [`ExternalWrench`]: bevy_langevin_rigid::ExternalWrench
 //! [`LangevinRigidSystems::Read`]: bevy_langevin_rigid::LangevinRigidSystems::Read
 
-#![allow(clippy::type_complexity, reason = "a query names all that it reads")]
 
 mod convert;
 mod handed;

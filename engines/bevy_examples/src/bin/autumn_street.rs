@@ -10,9 +10,7 @@ use bevy_langevin_rigid::langevin_rigid::Body;
 use bevy_langevin_rigid::langevin_rigid::wind::{
     GustSettings, Gusts, Profile, Region, Shear, Wind, WindError, WindField,
 };
-use bevy_langevin_rigid::{
-    AmbientWind, BakedBody, Crown, DropLeaves, Immersed, Leaf, LocalWind, ShedFrom,
-};
+use bevy_langevin_rigid::{AmbientWind, BakedBody, Crown, DropLeaves, Leaf, LocalWind, ShedFrom};
 use bevy_langevin_rigid_examples::{Scene, fly, matte, show, sun};
 
 /// Leaves of each tree, and how long it takes to shed them (s).
@@ -88,7 +86,7 @@ fn set_up_street(
     mut materials: ResMut<Assets<StandardMaterial>>,
 ) {
     sun(&mut commands, Color::srgb(0.72, 0.80, 0.88));
-    commands.spawn(fly(Vec3::new(-9.5, 1.7, 3.4), Vec3::new(2.0, 1.3, -1.5)));
+    commands.spawn(fly(Vec3::new(-9.5, 1.5, 2.2), Vec3::new(2.0, 1.0, -1.2)));
     let mut block = |size: Vec3, centre: Vec3, colour: Color| {
         (
             Mesh3d(meshes.add(Cuboid::from_size(size))),
@@ -190,8 +188,8 @@ fn set_up_trees(
 /// Gives a leaf that was shed its colour and its contacts.
 fn dress(
     shed: On<Add, ShedFrom>,
-    leaves: Query<&Immersed>,
     mut colours: Local<Vec<Handle<StandardMaterial>>>,
+    mut number: Local<usize>,
     mut materials: ResMut<Assets<StandardMaterial>>,
     mut commands: Commands,
 ) {
@@ -199,10 +197,9 @@ fn dress(
         let colour = |[r, g, b]: [f32; 3]| materials.add(matte(Color::srgb(r, g, b)));
         *colours = COLOURS.map(colour).into();
     }
-    let number = leaves.get(shed.entity).ok().and_then(|leaf| leaf.number);
-    let colour = number.unwrap_or(0) as usize % COLOURS.len();
+    *number = (*number + 1) % COLOURS.len();
     commands.entity(shed.entity).insert((
-        MeshMaterial3d(colours[colour].clone()),
+        MeshMaterial3d(colours[*number].clone()),
         RigidBody::Dynamic,
         Collider::cuboid(LEAF[0], 0.002, LEAF[1]),
     ));

@@ -1,6 +1,7 @@
 //! Coins fall into a tank of water, flutter and tumble down, and pile up on its floor.
 
 use avian3d::prelude::{Collider, PhysicsLengthUnit, RigidBody};
+use bevy::light::NotShadowCaster;
 use bevy::prelude::*;
 use bevy::time::common_conditions::on_timer;
 use bevy_langevin_rigid::langevin_rigid::{Body, NoiseStream};
@@ -50,7 +51,7 @@ fn set_up_tank(
     mut materials: ResMut<Assets<StandardMaterial>>,
 ) {
     sun(&mut commands, Color::srgb(0.86, 0.88, 0.90));
-    commands.spawn(fly(Vec3::new(0.16, 0.42, 0.75), Vec3::new(0.0, 0.16, 0.0)));
+    commands.spawn(fly(Vec3::new(0.14, 0.36, 0.62), Vec3::new(0.0, 0.17, 0.0)));
     let wood = materials.add(matte(Color::srgb(0.42, 0.29, 0.19)));
     commands.spawn((
         Mesh3d(meshes.add(Cuboid::new(3.0, 0.1, 3.0))),
@@ -72,6 +73,7 @@ fn set_up_tank(
         commands.spawn((
             Mesh3d(meshes.add(Cuboid::from_size(size))),
             MeshMaterial3d(glass.clone()),
+            NotShadowCaster,
             Transform::from_translation(away + 0.5 * TANK.y * Vec3::Y),
             RigidBody::Static,
             Collider::cuboid(size.x, size.y, size.z),
@@ -82,6 +84,7 @@ fn set_up_tank(
         Mesh3d(meshes.add(Cuboid::from_size(0.998 * water))),
         MeshMaterial3d(materials.add(see_through(Color::srgba(0.25, 0.55, 0.70, 0.22)))),
         Transform::from_xyz(0.0, 0.5 * WATER, 0.0),
+        NotShadowCaster,
         FluidRegion::lake(water),
     ));
 }

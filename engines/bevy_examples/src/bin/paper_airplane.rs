@@ -76,7 +76,7 @@ fn set_up_field(
     mut materials: ResMut<Assets<StandardMaterial>>,
 ) {
     sun(&mut commands, Color::srgb(0.66, 0.79, 0.92));
-    commands.spawn(stand(Vec3::new(-0.9, 1.75, 1.1), Vec3::new(2.6, 1.0, -0.2)));
+    commands.spawn(stand(Vec3::new(0.6, 1.7, 2.6), Vec3::new(2.4, 0.95, 0.0)));
     commands.spawn((
         Mesh3d(meshes.add(Cuboid::new(60.0, 1.0, 60.0))),
         MeshMaterial3d(materials.add(matte(Color::srgb(0.30, 0.44, 0.20)))),
@@ -117,12 +117,17 @@ fn set_up_airplane(
         material: materials.add(matte(Color::srgb(0.93, 0.93, 0.90))),
         collider,
     };
-    // Two to begin with.
-    for (towards, speed) in [
-        (Vec3::new(1.0, 0.06, -0.05), 6.0),
-        (Vec3::new(1.0, 0.25, -0.35), 4.0),
-    ] {
-        throw(&paper, towards, speed, &mut thrown, &mut commands);
+    // Two to begin with, side by side.
+    for (aside, speed) in [(-0.3, 6.0), (0.3, 4.0)] {
+        let hand = HAND + aside * Vec3::Z;
+        throw(
+            &paper,
+            hand,
+            Vec3::new(1.0, 0.06, 0.0),
+            speed,
+            &mut thrown,
+            &mut commands,
+        );
     }
     commands.insert_resource(paper);
     Ok(())
@@ -171,7 +176,14 @@ fn vec3(vertex: [f64; 3]) -> Vec3 {
 }
 
 /// Lets one go from the hand, its nose where it flies to.
-fn throw(paper: &Paper, towards: Vec3, speed: f32, thrown: &mut Thrown, commands: &mut Commands) {
+fn throw(
+    paper: &Paper,
+    hand: Vec3,
+    towards: Vec3,
+    speed: f32,
+    thrown: &mut Thrown,
+    commands: &mut Commands,
+) {
     let forwards = towards.normalize();
     let right = forwards.cross(Vec3::Y).normalize();
     let turn = Quat::from_mat3(&Mat3::from_cols(forwards, right.cross(forwards), right));
@@ -180,7 +192,7 @@ fn throw(paper: &Paper, towards: Vec3, speed: f32, thrown: &mut Thrown, commands
         Immersed::baked(paper.body.clone()),
         Mesh3d(paper.mesh.clone()),
         MeshMaterial3d(paper.material.clone()),
-        Transform::from_translation(HAND).with_rotation(turn),
+        Transform::from_translation(hand).with_rotation(turn),
         RigidBody::Dynamic,
         paper.collider.clone(),
         LinearVelocity(speed * forwards),
@@ -233,7 +245,7 @@ fn swing(
         && let Some(towards) = mouse.towards()
     {
         let speed = (PER_PIXEL * swing.0.length()).clamp(THROW[0], THROW[1]);
-        throw(&paper, towards, speed, &mut thrown, &mut commands);
+        throw(&paper, HAND, towards, speed, &mut thrown, &mut commands);
     }
 }
 
