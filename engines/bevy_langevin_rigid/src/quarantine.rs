@@ -1,12 +1,12 @@
 //! Bodies that cannot go on.
 
 use bevy_ecs::entity::Entity;
-use bevy_ecs::query::Without;
+use bevy_ecs::query::{Has, Without};
 use bevy_ecs::system::{Commands, Query};
 use bevy_log::error;
 use bevy_transform::components::Transform;
 
-use crate::components::{AngularVelocity, LinearVelocity, Quarantined};
+use crate::components::{AngularVelocity, Hosted, LinearVelocity, Quarantined};
 use crate::stepped::Stepped;
 
 /// Puts bodies with a fault back to where they last were, says why, and leaves them there.
@@ -18,16 +18,22 @@ pub(crate) fn quarantine(
             &mut Transform,
             &mut LinearVelocity,
             &mut AngularVelocity,
+            Has<Hosted>,
         ),
         Without<Quarantined>,
     >,
     mut commands: Commands,
 ) {
-    for (entity, mut stepped, mut transform, mut velocity, mut angular_velocity) in &mut bodies {
+    for (entity, mut stepped, mut transform, mut velocity, mut angular_velocity, hosted) in
+        &mut bodies
+    {
         let Some(fault) = stepped.fault.take() else {
             continue;
         };
-        stepped.restore(&mut transform, &mut velocity, &mut angular_velocity);
+        // Where an engine has a hosted body, it leaves it.
+        if !hosted {
+            stepped.restore(&mut transform, &mut velocity, &mut angular_velocity);
+        }
         mark(entity, &fault, &mut commands);
     }
 }

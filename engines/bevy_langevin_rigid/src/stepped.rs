@@ -289,11 +289,7 @@ impl Stepped {
     /// Draws the body so far between the last two fixed steps.
     pub(crate) fn draw(&mut self, fraction: f64, transform: &mut Transform) {
         let passed = f64::from(self.passed) - 1.0 + fraction;
-        let pose = self.between(passed / f64::from(self.span));
-        self.write(pose, transform);
-    }
-
-    fn write(&mut self, (place, turn): (DVec3, DQuat), transform: &mut Transform) {
+        let (place, turn) = self.between(passed / f64::from(self.span));
         let arm = transform.scale.as_dvec3() * self.centre_of_mass;
         transform.translation = (place - turn * arm).as_vec3();
         transform.rotation = turn.as_quat();
@@ -310,16 +306,15 @@ impl Stepped {
 
     /// Puts the entity back to where it last was.
     pub(crate) fn restore(
-        &mut self,
+        &self,
         transform: &mut Transform,
         velocity: &mut LinearVelocity,
         angular_velocity: &mut AngularVelocity,
     ) {
-        if !transform.scale.is_finite() {
-            transform.scale = Vec3::ONE;
-        }
-        self.write(self.between(1.0), transform);
-        (*velocity, *angular_velocity) = self.velocities();
+        transform.translation = self.written.translation;
+        transform.rotation = self.written.rotation;
+        *velocity = self.written.velocity;
+        *angular_velocity = self.written.angular_velocity;
     }
 }
 

@@ -49,7 +49,9 @@ fn a_fan_blows_forwards() {
 fn blown(app: &mut App, place: Vec3) -> Vec3 {
     let body = sheet(app);
     let place = Transform::from_translation(place);
-    let entity = app.world_mut().spawn((Immersed::baked(body), place)).id();
+    // All go through the same turbulence.
+    let immersed = Immersed::baked(body).numbered(0);
+    let entity = app.world_mut().spawn((immersed, place)).id();
     steps(app, 8);
     let velocity = state(app, entity).world_velocity();
     app.world_mut().despawn(entity);

@@ -24,7 +24,6 @@
 //! [`ExternalWrench`]: bevy_langevin_rigid::ExternalWrench
 //! [`LangevinRigidSystems::Read`]: bevy_langevin_rigid::LangevinRigidSystems::Read
 
-
 mod convert;
 mod handed;
 mod plugin;

@@ -18,7 +18,7 @@ use bevy_rapier3d::rapier;
 use bevy_rapier3d::rapier::geometry::{ColliderSet, NarrowPhase};
 use bevy_rapier3d::rapier::math::Pose;
 use bevy_time::{Fixed, Time};
-use bevy_transform::components::Transform;
+use bevy_transform::components::{GlobalTransform, Transform};
 
 use crate::convert;
 use crate::handed::Handed;
@@ -148,7 +148,8 @@ pub(crate) fn hand_over(
         &RapierRigidBodyHandle,
         &RapierContextEntityLink,
     )>,
-    held: Query<(), Held>,
+    held: Query<Option<&ChildOf>, Held>,
+    places: Query<&GlobalTransform>,
 ) {
     let dt = time.delta_secs_f64();
     for (entity, stepped, mut handed, hosted, transform, handle, link) in &mut bodies {
@@ -162,7 +163,13 @@ pub(crate) fn hand_over(
             continue;
         };
         leave_alone(body, &mut colliders.colliders);
-        if held.contains(entity) {
+        if let Ok(parent) = held.get(entity) {
+            // Where its `Transform` has it now: Rapier knows of a new parent only after transforms are propagated.
+            if let Some(place) = parent.and_then(|of| places.get(of.parent()).ok()) {
+                let place = place.mul_transform(*transform).compute_transform();
+                let pose = Pose::from_parts(place.translation, place.rotation);
+                body.set_position(pose, false);
+            }
             set_velocity(body, Velocity::zero());
             *handed = Handed::of(body);
             continue;
