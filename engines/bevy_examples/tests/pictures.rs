@@ -48,9 +48,9 @@ fn leaves_cover_the_street() {
             i16::from(*r) - i16::from(*b) > 40
         })
     };
-    let (early, late) = (street(0.5), street(14.0));
-    assert!(leaves(&early) < 100, "{}", leaves(&early));
-    assert!(leaves(&late) > 1000, "{}", leaves(&late));
+    let (early, late) = (street(0.5), street(17.0));
+    assert!(leaves(&early) < 20, "{}", leaves(&early));
+    assert!(leaves(&late) > 200, "{}", leaves(&late));
 }
 
 #[test]

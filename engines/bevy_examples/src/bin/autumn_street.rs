@@ -43,7 +43,7 @@ fn main() -> AppExit {
     show(&Scene {
         title: "Autumn street",
         help: "Fly with W, A, S, D, E, Q and the mouse while its button is held. F shows the forces on the leaves.",
-        seconds: 26.0,
+        seconds: 30.0,
         plugin,
     })
 }
@@ -86,7 +86,7 @@ fn set_up_street(
     mut materials: ResMut<Assets<StandardMaterial>>,
 ) {
     sun(&mut commands, Color::srgb(0.72, 0.80, 0.88));
-    commands.spawn(fly(Vec3::new(-9.5, 1.5, 2.2), Vec3::new(2.0, 1.0, -1.2)));
+    commands.spawn(fly(Vec3::new(-9.5, 1.6, 3.4), Vec3::new(1.5, 0.9, -1.4)));
     let mut block = |size: Vec3, centre: Vec3, colour: Color| {
         (
             Mesh3d(meshes.add(Cuboid::from_size(size))),

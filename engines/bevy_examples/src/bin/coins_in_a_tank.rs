@@ -22,7 +22,7 @@ fn main() -> AppExit {
     show(&Scene {
         title: "Coins in a tank",
         help: "Fly with W, A, S, D, E, Q and the mouse while its button is held. Space drops ten more coins; F shows the forces.",
-        seconds: 19.0,
+        seconds: 16.0,
         plugin,
     })
 }

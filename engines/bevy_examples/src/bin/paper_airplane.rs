@@ -34,7 +34,7 @@ fn main() -> AppExit {
         title: "Paper airplane",
         help: "Hold the left button, swing the mouse to where it shall fly, and let go: the faster, the harder the throw. \
                F hides and shows the forces.",
-        seconds: 0.9,
+        seconds: 0.7,
         plugin,
     })
 }
