@@ -48,6 +48,10 @@ pub fn show(scene: &Scene) -> AppExit {
             println!("{}. {}\n{USAGE}", scene.title, scene.help);
             return AppExit::Success;
         }
+        Asked::Window if cfg!(target_os = "linux") && std::env::var_os("DISPLAY").is_none() => {
+            eprintln!("there is no display: DISPLAY is not set\n{USAGE}");
+            return AppExit::from_code(1);
+        }
         Asked::Window => {
             println!("{}", scene.help);
             let window = Window {
