@@ -20,8 +20,8 @@ use crate::said::Said;
 /// [`AmbientWind`] ([`Jet`]).
 ///
 /// The jet spreads, slows down and draws in the fluid around it; nothing stands in its way. It is in the fluid of
-/// [`ImmersionSettings`](crate::ImmersionSettings) alone, not in a [`FluidRegion`]. A fan that cannot be is an error in the
-/// log, and does not blow until it is mended.
+/// [`ImmersionSettings`](crate::ImmersionSettings) alone, not in a [`FluidRegion`](crate::FluidRegion). A fan that cannot be is an
+/// error in the log, and does not blow until it is mended.
 #[derive(Component, Debug, Clone, Copy, PartialEq, Reflect)]
 #[reflect(Component, Clone, PartialEq)]
 #[require(Transform)]
