@@ -148,6 +148,7 @@ impl Kind {
             flow,
             ..Input::default()
         };
-        self.stepper().loads(state, &input).push_to_weight() > BLOWN
+        let stepper = self.stepper();
+        stepper.push_to_weight(&stepper.loads(state, &input)) > BLOWN
     }
 }

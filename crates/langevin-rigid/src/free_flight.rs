@@ -6,7 +6,7 @@
 use crate::input::Input;
 use crate::linalg::{
     Mat3, Quat, Vec3, add, add_scaled, dot, invert_spd, mat_vec, norm, quat_mul, rotation_matrix,
-    scale, sub, transposed_mat_vec,
+    scale, sub,
 };
 use crate::state::State;
 use crate::stepper::{StepError, Stepper};
@@ -44,6 +44,28 @@ pub struct ContactMass {
     pub mass: f64,
     /// What a moment about the centre of mass divides by, body frame (kg m^2).
     pub inertia: Mat3,
+    /// Velocity that an impulse through the centre of mass gives, world frame (1/kg).
+    mobility: Mat3,
+}
+
+impl ContactMass {
+    /// The velocity of the centre of mass after a contact, from that `before` it and that which an engine `solved` for with
+    /// this mass (world frame, m/s).
+    ///
+    /// An engine knows one mass, which is right along the normal. Along the surface a body may be lighter, and friction slows
+    /// it by more: a coin that slides on the bed of a tank has half the mass that it has towards it. Friction never
+    /// turns a body back.
+    #[must_use]
+    pub fn corrected(&self, before: Vec3, solved: Vec3) -> Vec3 {
+        let change = sub(solved, before);
+        let more = sub(scale(self.mass, mat_vec(&self.mobility, change)), change);
+        let squared = dot(more, more);
+        if squared == 0.0 {
+            return solved;
+        }
+        let until_it_stops = -dot(solved, more) / squared;
+        add(solved, scale(until_it_stops.clamp(0.0, 1.0), more))
+    }
 }
 
 impl FreeFlight {
@@ -146,13 +168,21 @@ impl Stepper {
         let block = |k: usize| -> Mat3 {
             std::array::from_fn(|i| std::array::from_fn(|j| inverse[k + i][k + j]))
         };
-        let along = transposed_mat_vec(&rotation_matrix(orientation), normal);
+        let turn = rotation_matrix(orientation);
+        let mobility = turned(&turn, &block(0));
         ContactMass {
-            mass: 1.0 / dot(along, mat_vec(&block(0), along)),
+            mass: 1.0 / dot(normal, mat_vec(&mobility, normal)),
             // A block on the diagonal of a positive definite matrix is one too.
             inertia: invert_spd(&block(3)).unwrap_or_default(),
+            mobility,
         }
     }
+}
+
+/// A tensor of the body frame in the world frame.
+fn turned(turn: &Mat3, tensor: &Mat3) -> Mat3 {
+    let rows = turn.map(|row| mat_vec(tensor, row));
+    turn.map(|row| rows.map(|column| dot(row, column)))
 }
 
 /// The rotation vector of a unit quaternion, no longer than half a turn.
@@ -265,6 +295,38 @@ mod tests {
         stepper.step(&mut pushed, dt, &input).unwrap();
         let gained = dot(sub(pushed.world_velocity(), state.world_velocity()), normal);
         assert!((gained * contact.mass / impulse - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn friction_slows_a_body_by_its_mass_along_the_surface() {
+        let coin = Body::disc(0.0125, 0.00175, 2700.0).unwrap();
+        let stepper = Stepper::new(&coin, &Fluid::WATER, None, &Settings::default()).unwrap();
+        let state = State::default();
+        // It lies flat on a bed, tilted or not, and slides along it.
+        for orientation in [
+            state.orientation,
+            quat_from_rotation_vector([0.4, 0.0, 0.7]),
+        ] {
+            let normal = rotate(orientation, [0.0, 1.0, 0.0]);
+            let along = rotate(orientation, [0.6, 0.0, 0.8]);
+            let contact = stepper.contact_mass(orientation, normal);
+            let light = stepper.contact_mass(orientation, along).mass;
+            assert!(contact.mass > 1.5 * light);
+            let (impulse, friction) = (0.02 * contact.mass, 0.006 * contact.mass);
+            let before = add(scale(0.5, along), scale(-impulse / contact.mass, normal));
+            let solved = scale(0.5 - friction / contact.mass, along);
+            let corrected = contact.corrected(before, solved);
+            let expected = scale(0.5 - friction / light, along);
+            assert!(norm(sub(corrected, expected)) < 1e-9, "{corrected:?}");
+            // What friction has stopped stays so; what more of it would turn back, it stops.
+            let slow = scale(0.004, along);
+            let stopped = contact.corrected(slow, [0.0; 3]);
+            assert!(norm(stopped) < 1e-12, "{stopped:?}");
+            let nearly = contact.corrected(scale(0.1, along), scale(0.001, along));
+            assert!(norm(nearly) < 1e-9, "{nearly:?}");
+            // Nothing was met.
+            assert_eq!(contact.corrected(before, before), before);
+        }
     }
 
     #[test]

@@ -93,23 +93,33 @@ impl Loads {
 }
 
 impl Loads {
-    /// Force of all but weight and buoyancy, as a share of the weight in the fluid: what friction has to hold of a body that
-    /// lies still, and by which an engine wakes one that sleeps. Not a number where nothing acts on a body without weight.
-    ///
-    /// ```
-    /// use langevin_rigid::{Body, Flow, Fluid, Input, Settings, State, Stepper};
-    /// let leaf = Body::plate(0.08, 0.05, 0.2e-3, 450.0)?;
-    /// let stepper = Stepper::new(&leaf, &Fluid::AIR, None, &Settings::default())?;
-    /// let push = |wind| {
-    ///     let input = Input { flow: Flow::uniform([wind, 0.0, 0.0]), ..Input::default() };
-    ///     stepper.loads(&State::default(), &input).push_to_weight()
-    /// };
-    /// assert!(push(0.1) < 0.05 && push(5.0) > 0.3);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn push_to_weight(&self) -> f64 {
-        let weight = add(self.weight.force, self.buoyancy.force);
-        norm(sub(self.sum().force, weight)) / norm(weight)
+    /// Share of its weight by which a body at rest must be pushed to move ([`Stepper::push_to_weight`]): what engines wake
+    /// sleeping bodies by. Friction holds less than a coefficient of 0.5 would say, since wind also lifts.
+    pub const STIRRING: f64 = 0.3;
+
+    /// These with a `share` of `other` in the place of as much of them: the loads on a body in two fluids, of whose volume
+    /// this share is in the other.
+    #[must_use]
+    pub fn mixed(&self, other: &Self, share: f64) -> Self {
+        let vector = |a: Vec3, b: Vec3| add(scale(1.0 - share, a), scale(share, b));
+        let mix = |of: fn(&Self) -> Wrench| Wrench {
+            force: vector(of(self).force, of(other).force),
+            torque: vector(of(self).torque, of(other).torque),
+        };
+        Self {
+            weight: mix(|loads| loads.weight),
+            buoyancy: mix(|loads| loads.buoyancy),
+            added_mass: mix(|loads| loads.added_mass),
+            drag: mix(|loads| loads.drag),
+            normal_force: mix(|loads| loads.normal_force),
+            rotational_lift: mix(|loads| loads.rotational_lift),
+            damping: mix(|loads| loads.damping),
+            lost_couple: mix(|loads| loads.lost_couple),
+            friction: mix(|loads| loads.friction),
+            turbulence: mix(|loads| loads.turbulence),
+            fluid_acceleration: mix(|loads| loads.fluid_acceleration),
+            outside: mix(|loads| loads.outside),
+        }
     }
 }
 
@@ -137,6 +147,32 @@ impl Stepper {
         loads.added_mass.torque = rotate(state.orientation, cross(p, v));
         self.add_of_model(&motion, state.time, forcing.as_ref(), &mut loads);
         loads
+    }
+
+    /// How hard `loads` push a body that lies still, over what holds it: the force of all but weight and buoyancy over the
+    /// weight in the fluid or, if that is more, the torque from outside over that weight at the radius of gyration.
+    ///
+    /// Not a number where nothing acts on a body without weight.
+    ///
+    /// ```
+    /// use langevin_rigid::{Body, Flow, Fluid, Input, Loads, Settings, State, Stepper};
+    /// let leaf = Body::plate(0.08, 0.05, 0.2e-3, 450.0)?;
+    /// let stepper = Stepper::new(&leaf, &Fluid::AIR, None, &Settings::default())?;
+    /// let push = |wind| {
+    ///     let input = Input { flow: Flow::uniform([wind, 0.0, 0.0]), ..Input::default() };
+    ///     stepper.push_to_weight(&stepper.loads(&State::default(), &input))
+    /// };
+    /// assert!(push(0.1) < 0.05 && push(5.0) > Loads::STIRRING);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn push_to_weight(&self, loads: &Loads) -> f64 {
+        let weight = add(loads.weight.force, loads.buoyancy.force);
+        let push = norm(sub(loads.sum().force, weight));
+        let total = self.total_mass();
+        let inertia = (3..6).map(|k| total[k][k]).fold(0.0, f64::max);
+        let mass = (0..3).map(|k| total[k][k]).fold(f64::INFINITY, f64::min);
+        let turning = norm(loads.outside.torque) / (inertia / mass).sqrt();
+        push.max(turning) / norm(weight)
     }
 
     /// Velocity of the centre of mass (m/s) and angular velocity (rad/s) relative to the undisturbed fluid, body frame.
