@@ -134,8 +134,8 @@ pub struct ExternalWrench {
 /// Marks a body that a physics engine moves, which has its contacts: the plugin steps it and leaves its `Transform` to the
 /// engine.
 ///
-/// The engine's side gives it the mean velocities of each step ([`Stepped::flight`](crate::Stepped::flight)) and takes back
-/// what became of it ([`Stepped::set_state`](crate::Stepped::set_state)).
+/// The engine's side gives it the mean velocities of each step and takes back what became of it
+/// ([`Handed`](crate::Handed)).
 #[derive(Component, Debug, Clone, Copy, PartialEq, Eq, Default, Reflect)]
 #[reflect(Component, Default, Clone, PartialEq)]
 pub struct Hosted {

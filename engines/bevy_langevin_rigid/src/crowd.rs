@@ -2,24 +2,30 @@
 
 use std::sync::Arc;
 
-use bevy_ecs::change_detection::Mut;
-use bevy_tasks::{ComputeTaskPool, TaskPool};
+use bevy_ecs::entity::Entity;
 use langevin_rigid::linalg::vector::add;
-use langevin_rigid::{Batch, Flow, Input, NoiseStream, Precision, State, Wrench};
+use langevin_rigid::{Batch, Flow, Input, NoiseStream, Precision, State, Stepper, Wrench};
 
 use crate::ambient::ImmersionSettings;
-use crate::components::ExternalWrench;
+use crate::components::{AngularVelocity, ExternalWrench, LinearVelocity};
+use crate::drawn::Drawn;
+use crate::faults::Faults;
 use crate::medium::Medium;
+use crate::pace::Pace;
 use crate::regions::Surroundings;
 use crate::stepped::{Mover, Stepped};
-use crate::steppers::Mobility;
 
-/// Bodies that a task takes.
-const TASK: usize = 256;
+/// Bodies that are gathered before they step: many of a kind fill the lanes, few stay in the cache.
+const GATHERED: usize = 512;
 
 /// A body that takes a step.
-pub(crate) struct Due<'a> {
-    pub(crate) stepped: Mut<'a, Stepped>,
+pub(crate) struct Due<'w> {
+    pub(crate) entity: Entity,
+    pub(crate) stepped: &'w mut Stepped,
+    pub(crate) pace: &'w mut Pace,
+    pub(crate) drawn: &'w mut Drawn,
+    pub(crate) velocity: &'w mut LinearVelocity,
+    pub(crate) angular_velocity: &'w mut AngularVelocity,
     pub(crate) number: u32,
     pub(crate) wrench: ExternalWrench,
     /// In fixed steps.
@@ -33,18 +39,23 @@ pub(crate) struct FixedStep<'a> {
     pub(crate) dt: f64,
     pub(crate) settings: &'a ImmersionSettings,
     pub(crate) around: &'a Surroundings,
+    pub(crate) faults: &'a Faults,
 }
 
-/// A body with all that its step takes.
-struct Ready<'a, 'w> {
-    body: &'a mut Due<'w>,
+/// The bodies that a task has gathered; those that are left step when it is dropped.
+pub(crate) struct Crowd<'a, 'w> {
+    fixed: &'a FixedStep<'a>,
+    bodies: Vec<Due<'w>>,
+}
+
+/// What the step of a body takes beside it.
+struct Around {
     input: Input,
     medium: Medium,
-    kind: Kind,
 }
 
 /// Bodies that move alike. These may go in lanes together, to the same bits as alone.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, PartialEq, Eq)]
 enum Kind {
     /// One by one.
     Alone,
@@ -59,39 +70,77 @@ enum Kind {
     },
 }
 
-/// Steps all of them.
-pub(crate) fn step(mut due: Vec<Due>, fixed: &FixedStep) {
-    // So that a task has many of each kind; which one has which changes no bit.
-    due.sort_by_key(|body| (body.stepped.mover.address(), body.span));
-    let pool = ComputeTaskPool::get_or_init(TaskPool::default);
-    pool.scope(|scope| {
-        for some in due.chunks_mut(TASK) {
-            scope.spawn(async move { fixed.step(some) });
+impl<'a, 'w> Crowd<'a, 'w> {
+    pub(crate) fn new(fixed: &'a FixedStep<'a>) -> Self {
+        Self {
+            fixed,
+            bodies: Vec::new(),
         }
-    });
+    }
+
+    /// Gathers a body, and steps all of them if they are enough.
+    pub(crate) fn add(&mut self, body: Due<'w>) {
+        self.bodies.push(body);
+        if self.bodies.len() == GATHERED {
+            self.step();
+        }
+    }
+
+    fn step(&mut self) {
+        self.fixed.step(&mut self.bodies);
+        self.bodies.clear();
+    }
+}
+
+impl Drop for Crowd<'_, '_> {
+    fn drop(&mut self) {
+        self.step();
+    }
+}
+
+impl Due<'_> {
+    fn take_step(&mut self, next: State, medium: Medium) {
+        let (before, after) = self.stepped.take_step(next, medium);
+        self.drawn.between(before, after);
+        *self.pace = Pace::of(self.span);
+        (*self.velocity, *self.angular_velocity) = self.stepped.velocities();
+    }
 }
 
 impl FixedStep<'_> {
     fn step(&self, bodies: &mut [Due]) {
-        let mut ready: Vec<Ready> = bodies.iter_mut().map(|body| self.ready(body)).collect();
-        ready.sort_by(|a, b| a.kind.cmp(&b.kind));
-        for alike in ready.chunk_by_mut(|a, b| a.kind == b.kind) {
-            let Some(Ready { body, kind, .. }) = alike.first() else {
-                continue;
-            };
-            match (kind, body.stepped.mover.clone()) {
-                (&Kind::Together { span: 1, .. }, Mover::Immersed(mobility)) => {
-                    self.step_together::<f64>(alike, &mobility, 1);
+        let mut around: Vec<Around> = bodies.iter().map(|body| self.around(body)).collect();
+        for (kind, alike) in kinds(bodies, &around) {
+            let mover = alike
+                .first()
+                .map(|&first| bodies[first].stepped.mover.clone());
+            match (kind, mover) {
+                (Kind::Together { span: 1, acts, .. }, Some(Mover::Immersed(mobility))) => {
+                    let many = Many {
+                        fixed: self,
+                        alike: &alike,
+                        acts,
+                    };
+                    many.step::<f64>(bodies, &mut around, &mobility.open, 1);
                 }
-                (&Kind::Together { span, .. }, Mover::Immersed(mobility)) => {
-                    self.step_together::<f32>(alike, &mobility, span);
+                (Kind::Together { span, acts, .. }, Some(Mover::Immersed(mobility))) => {
+                    let many = Many {
+                        fixed: self,
+                        alike: &alike,
+                        acts,
+                    };
+                    many.step::<f32>(bodies, &mut around, mobility.coarse(), span);
                 }
-                _ => alike.iter_mut().for_each(|ready| self.step_alone(ready)),
+                _ => {
+                    for place in alike {
+                        self.step_alone(&mut bodies[place], &mut around[place]);
+                    }
+                }
             }
         }
     }
 
-    fn ready<'a, 'w>(&self, body: &'a mut Due<'w>) -> Ready<'a, 'w> {
+    fn around(&self, body: &Due) -> Around {
         let state = body.stepped.state();
         let input = Input {
             flow: self.flow(state.position),
@@ -104,8 +153,7 @@ impl FixedStep<'_> {
                 body: body.number,
             },
         };
-        let mover = &body.stepped.mover;
-        let medium = match mover {
+        let medium = match &body.stepped.mover {
             Mover::Plain => Medium::Open,
             Mover::Immersed(mobility) => {
                 let gravity = self.settings.motion.gravity;
@@ -118,21 +166,7 @@ impl FixedStep<'_> {
                 )
             }
         };
-        let kind = match (mover, &medium) {
-            (Mover::Immersed(_), Medium::Open) => Kind::Together {
-                mobility: mover.address(),
-                span: body.span,
-                acts: input.flow != Flow::default() || input.wrench != Wrench::default(),
-                turns: input.flow.gradient != [[0.0; 3]; 3],
-            },
-            _ => Kind::Alone,
-        };
-        Ready {
-            body,
-            input,
-            medium,
-            kind,
-        }
+        Around { input, medium }
     }
 
     /// The wind at a place.
@@ -149,58 +183,96 @@ impl FixedStep<'_> {
         f64::from(span) * self.dt
     }
 
-    fn step_alone(&self, ready: &mut Ready) {
-        let span = ready.body.span;
+    fn step_alone(&self, body: &mut Due, around: &mut Around) {
         let gravity = self.settings.motion.gravity;
-        let medium = std::mem::take(&mut ready.medium);
-        let stepped = &mut ready.body.stepped;
-        stepped.step(self.length(span), span, &ready.input, gravity, medium);
-    }
-
-    fn step_together<P: Precision>(&self, alike: &mut [Ready], mobility: &Mobility, span: u32) {
-        let mut batch = Batch::<P>::new(self.settings.seed);
-        let far = span > 1;
-        for Ready { body, .. } in alike.iter() {
-            let mut state = *body.stepped.state();
-            // Single precision tells where a body goes, not where it is.
-            if far {
-                state.position = [0.0; 3];
-            }
-            batch.push_numbered(body.number, &state);
-        }
-        let stepper = if far {
-            mobility.coarse()
-        } else {
-            &mobility.open
-        };
-        let mut inputs = alike.iter().map(|ready| ready.input);
-        let next = |_, _: &State| inputs.next().unwrap_or_default();
-        // Bodies that could not take it stay as they were.
-        let stopped = stepper
-            .step_batch_with(&mut batch, self.length(span), next)
-            .is_err();
-        for (place, ready) in alike.iter_mut().enumerate() {
-            let before = *ready.body.stepped.state();
-            match batch.state(place) {
-                Some(mut after) if !stopped || after.step != before.step => {
-                    if far {
-                        after.position = add(before.position, after.position);
-                    }
-                    ready.body.stepped.take_step(after, span, Medium::Open);
-                }
-                // Alone it says why not.
-                _ => self.step_alone(ready),
-            }
+        let medium = std::mem::take(&mut around.medium);
+        let length = self.length(body.span);
+        match body.stepped.next(length, &around.input, gravity, &medium) {
+            Ok(next) => body.take_step(next, medium),
+            Err(fault) => self.faults.tell(body.entity, fault),
         }
     }
 }
 
-impl Mover {
-    /// Where it is in memory, for bodies to be sorted by.
-    fn address(&self) -> usize {
-        match self {
-            Self::Immersed(mobility) => Arc::as_ptr(mobility) as usize,
-            Self::Plain => 0,
+/// The places of bodies that move alike, by kind.
+fn kinds(bodies: &[Due], around: &[Around]) -> Vec<(Kind, Vec<usize>)> {
+    let mut kinds: Vec<(Kind, Vec<usize>)> = Vec::new();
+    for (place, (body, around)) in bodies.iter().zip(around).enumerate() {
+        let kind = Kind::of(body, around);
+        match kinds.iter_mut().rev().find(|(other, _)| *other == kind) {
+            Some((_, alike)) => alike.push(place),
+            None => kinds.push((kind, vec![place])),
+        }
+    }
+    kinds
+}
+
+impl Kind {
+    fn of(body: &Due, around: &Around) -> Self {
+        let Around { input, medium } = around;
+        match (&body.stepped.mover, medium) {
+            (Mover::Immersed(mobility), Medium::Open) => Self::Together {
+                mobility: Arc::as_ptr(mobility) as usize,
+                span: body.span,
+                acts: input.flow != Flow::default() || input.wrench != Wrench::default(),
+                turns: input.flow.gradient != [[0.0; 3]; 3],
+            },
+            _ => Self::Alone,
+        }
+    }
+}
+
+/// Bodies of a kind, which step in lanes.
+struct Many<'a> {
+    fixed: &'a FixedStep<'a>,
+    /// Their places.
+    alike: &'a [usize],
+    acts: bool,
+}
+
+impl Many<'_> {
+    fn step<P: Precision>(
+        &self,
+        bodies: &mut [Due],
+        around: &mut [Around],
+        stepper: &Stepper,
+        span: u32,
+    ) {
+        let fixed = self.fixed;
+        let mut batch = Batch::<P>::new(fixed.settings.seed);
+        let far = span > 1;
+        for &place in self.alike {
+            let mut state = *bodies[place].stepped.state();
+            // Single precision tells where a body goes, not where it is.
+            if far {
+                state.position = [0.0; 3];
+            }
+            batch.push_numbered(bodies[place].number, &state);
+        }
+        let length = fixed.length(span);
+        let stopped = if self.acts {
+            let mut places = self.alike.iter();
+            let next = |_, _: &State| {
+                let place = places.next();
+                place.map_or_else(Input::default, |&place| around[place].input)
+            };
+            stepper.step_batch_with(&mut batch, length, next).is_err()
+        } else {
+            stepper.step_batch(&mut batch, length).is_err()
+        };
+        for (lane, &place) in self.alike.iter().enumerate() {
+            let body = &mut bodies[place];
+            let before = *body.stepped.state();
+            match batch.state(lane) {
+                Some(mut after) if !stopped || after.step != before.step => {
+                    if far {
+                        after.position = add(before.position, after.position);
+                    }
+                    body.take_step(after, Medium::Open);
+                }
+                // Those that could not take it stay as they were; alone they say why not.
+                _ => fixed.step_alone(body, &mut around[place]),
+            }
         }
     }
 }

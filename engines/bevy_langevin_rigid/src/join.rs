@@ -14,8 +14,9 @@ use crate::ambient::ImmersionSettings;
 use crate::baked_body::BakedBody;
 use crate::baking::{Bakes, Outcome, Solid};
 use crate::components::{AngularVelocity, BodySource, Immersed, LinearVelocity, Quarantined};
+use crate::moving::not_finite;
 use crate::quarantine::mark;
-use crate::stepped::{Mover, Stepped, not_finite};
+use crate::stepped::{Mover, Stepped};
 use crate::steppers::{Shape, Steppers};
 
 /// Scales along the axes that differ by less than this part are one.

@@ -37,17 +37,23 @@ mod components;
 mod crowd;
 mod detail;
 mod draw;
+mod drawn;
+mod faults;
 #[cfg(feature = "gizmos")]
 mod gizmos;
+mod handed;
 mod join;
 mod loads;
 mod medium;
+mod moving;
+mod pace;
 mod plain_fall;
 mod plugin;
 mod quarantine;
 mod regions;
 mod said;
 mod shedding;
+mod sleepers;
 mod stepped;
 mod steppers;
 mod steps;
@@ -61,10 +67,12 @@ pub use components::{
 pub use detail::LevelOfDetail;
 #[cfg(feature = "gizmos")]
 pub use gizmos::{ForceGizmos, ForceGizmosPlugin, ShowForces};
+pub use handed::{Handed, Motion};
 pub use loads::BodyLoads;
 pub use plugin::{LangevinRigidPlugin, LangevinRigidSystems};
 pub use regions::{Extent, FluidRegion};
 pub use shedding::{Crown, DropLeaves, Leaf, LeafLimit, LeavesShed, ShedFrom};
+pub use sleepers::Sleepers;
 pub use stepped::Stepped;
 pub use winds::{Fan, LocalWind};
 

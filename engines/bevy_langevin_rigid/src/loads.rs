@@ -2,9 +2,7 @@
 
 use bevy_ecs::system::{Res, SystemParam};
 use bevy_time::{Fixed, Time};
-use langevin_rigid::linalg::Vec3;
-use langevin_rigid::linalg::vector::{add, scale};
-use langevin_rigid::{Input, Loads, Wrench};
+use langevin_rigid::{Input, Loads};
 
 use crate::ambient::ImmersionSettings;
 use crate::components::ExternalWrench;
@@ -33,8 +31,17 @@ pub struct BodyLoads<'w> {
 }
 
 impl BodyLoads<'_> {
+    /// Whether a body that lies still would be moved, by [`Loads::STIRRING`] of its weight in the fluid.
+    pub fn stirs(&self, body: &Stepped, wrench: &ExternalWrench) -> bool {
+        if self.is_calm(body, wrench) {
+            return false;
+        }
+        let pushed = body.stepper().zip(self.of(body, wrench));
+        pushed.is_some_and(|(stepper, loads)| stepper.push_to_weight(&loads) > Loads::STIRRING)
+    }
+
     /// Whether a body is in the fluid around all with no wind there, and nothing pushes it.
-    pub fn is_calm(&self, body: &Stepped, wrench: &ExternalWrench) -> bool {
+    fn is_calm(&self, body: &Stepped, wrench: &ExternalWrench) -> bool {
         let open = !matches!(body.medium, Medium::Region(..));
         let still = self.around.wind.is_empty() && self.settings.fluid.velocity == [0.0; 3];
         open && still && *wrench == ExternalWrench::default()
@@ -63,29 +70,6 @@ impl BodyLoads<'_> {
         };
         input.flow = surface.flow(state.position, state.time);
         let under = immersion.in_water().loads(state, &input);
-        Some(mixture(&open, &under, immersion.share(state, surface)))
-    }
-}
-
-/// The loads of which a share is that of `b`.
-fn mixture(a: &Loads, b: &Loads, share: f64) -> Loads {
-    let vector = |a: Vec3, b: Vec3| add(scale(1.0 - share, a), scale(share, b));
-    let mix = |a: Wrench, b: Wrench| Wrench {
-        force: vector(a.force, b.force),
-        torque: vector(a.torque, b.torque),
-    };
-    Loads {
-        weight: mix(a.weight, b.weight),
-        buoyancy: mix(a.buoyancy, b.buoyancy),
-        added_mass: mix(a.added_mass, b.added_mass),
-        drag: mix(a.drag, b.drag),
-        normal_force: mix(a.normal_force, b.normal_force),
-        rotational_lift: mix(a.rotational_lift, b.rotational_lift),
-        damping: mix(a.damping, b.damping),
-        lost_couple: mix(a.lost_couple, b.lost_couple),
-        friction: mix(a.friction, b.friction),
-        turbulence: mix(a.turbulence, b.turbulence),
-        fluid_acceleration: mix(a.fluid_acceleration, b.fluid_acceleration),
-        outside: mix(a.outside, b.outside),
+        Some(open.mixed(&under, immersion.share(state, surface)))
     }
 }

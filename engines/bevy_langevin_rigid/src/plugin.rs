@@ -12,9 +12,11 @@ use crate::baked_body::{BakedBody, BakedBodyLoader};
 use crate::baking::Bakes;
 use crate::components::NextNumber;
 use crate::detail::LevelOfDetail;
+use crate::faults::Faults;
 use crate::regions::Surroundings;
 use crate::shedding::{DropLeaves, LeafLimit, Shedding};
 use crate::steppers::Steppers;
+use crate::steps::Ticks;
 use crate::{baking, draw, join, quarantine, regions, shedding, steppers, steps, winds};
 
 /// Moves bodies that are [`Immersed`](crate::Immersed).
@@ -31,11 +33,12 @@ pub enum LangevinRigidSystems {
     Shed,
     /// In `FixedUpdate`: fluid regions and fans are found, meshes are baked, and bodies join whose shape is ready.
     Join,
-    /// In `FixedUpdate`: what the game has changed since the last step (`Transform`s and velocities) is read.
+    /// In `FixedUpdate`: what the game has changed since the last step (`Transform`s and velocities) is read; bodies that
+    /// were given impossible numbers are quarantined.
     Read,
-    /// In `FixedUpdate`: all bodies step.
+    /// In `FixedUpdate`: all bodies step, and their velocities are written.
     Step,
-    /// In `FixedUpdate`: velocities are written, and bodies that cannot go on are quarantined.
+    /// In `FixedUpdate`: bodies that could not step are quarantined.
     Write,
     /// In `RunFixedMainLoop`, after the fixed steps of the frame: `Transform`s are drawn between the last two of them.
     Draw,
@@ -51,6 +54,8 @@ impl Plugin for LangevinRigidPlugin {
             .init_resource::<Bakes>()
             .init_resource::<NextNumber>()
             .init_resource::<Steppers>()
+            .init_resource::<Faults>()
+            .init_resource::<Ticks>()
             .init_resource::<Surroundings>()
             .init_resource::<Shedding>()
             .init_resource::<LevelOfDetail>()
@@ -89,11 +94,15 @@ impl Plugin for LangevinRigidPlugin {
                     )
                         .chain()
                         .in_set(Join),
-                    (steps::come_to_rest_in_hand, steps::read)
+                    (
+                        steps::come_to_rest_in_hand,
+                        steps::read,
+                        quarantine::quarantine,
+                    )
                         .chain()
                         .in_set(Read),
                     steps::step.in_set(Step),
-                    (steps::write, quarantine::quarantine).chain().in_set(Write),
+                    quarantine::quarantine.in_set(Write),
                 ),
             )
             .add_systems(

@@ -1,8 +1,11 @@
-//! The fixed steps: read, step, write.
+//! The fixed steps: read, then step.
 
+use bevy_ecs::batching::BatchingStrategy;
+use bevy_ecs::change_detection::{DetectChanges, Mut, Ref, Tick};
 use bevy_ecs::hierarchy::ChildOf;
 use bevy_ecs::query::{Added, With, Without};
-use bevy_ecs::system::{Local, Query, Res};
+use bevy_ecs::resource::Resource;
+use bevy_ecs::system::{Local, Query, Res, ResMut, SystemChangeTick};
 use bevy_log::warn;
 use bevy_math::Vec3;
 use bevy_time::{Fixed, Time};
@@ -12,10 +15,32 @@ use crate::ambient::ImmersionSettings;
 use crate::components::{
     AngularVelocity, ExternalWrench, Hosted, Immersed, LinearVelocity, Quarantined,
 };
-use crate::crowd::{self, Due, FixedStep};
+use crate::crowd::{Crowd, Due, FixedStep};
 use crate::detail::View;
+use crate::faults::Faults;
+use crate::moving::Moving;
 use crate::regions::Surroundings;
-use crate::stepped::Stepped;
+
+/// Tasks that a thread takes, so that one which is done early can take more.
+const TASKS: usize = 8;
+
+/// When the plugin itself last wrote; what has changed since, the game has changed.
+#[derive(Resource, Debug)]
+pub(crate) struct Ticks {
+    /// `Transform`s.
+    pub(crate) drawn: Tick,
+    /// Velocities.
+    stepped: Tick,
+}
+
+impl Default for Ticks {
+    fn default() -> Self {
+        Self {
+            drawn: Tick::new(0),
+            stepped: Tick::new(0),
+        }
+    }
+}
 
 /// Stops bodies that were given a parent: it moves them from now on.
 pub(crate) fn come_to_rest_in_hand(
@@ -36,82 +61,111 @@ pub(crate) fn come_to_rest_in_hand(
 
 /// Takes what the game has changed since the last step.
 pub(crate) fn read(
+    ticks: Res<Ticks>,
+    change: SystemChangeTick,
+    faults: Res<Faults>,
     mut bodies: Query<
-        (&mut Stepped, &Transform, &LinearVelocity, &AngularVelocity),
+        (
+            Moving,
+            Ref<Transform>,
+            Ref<LinearVelocity>,
+            Ref<AngularVelocity>,
+        ),
         (Without<ChildOf>, Without<Quarantined>, Without<Hosted>),
     >,
 ) {
+    let newer = |tick: Tick, than| tick.is_newer_than(than, change.this_run());
     bodies
         .par_iter_mut()
-        .for_each(|(mut stepped, transform, velocity, angular_velocity)| {
-            stepped.follow(transform);
-            stepped.accelerate(*velocity, *angular_velocity);
+        .for_each(|(mut body, transform, velocity, angular_velocity)| {
+            let moved = newer(transform.last_changed(), ticks.drawn);
+            let accelerated = newer(velocity.last_changed(), ticks.stepped)
+                || newer(angular_velocity.last_changed(), ticks.stepped);
+            let mut taken = Ok(());
+            if moved {
+                taken = body.follow(&transform);
+            }
+            if accelerated && taken.is_ok() {
+                taken = body.accelerate(*velocity, *angular_velocity);
+            }
+            if let Err(fault) = taken {
+                faults.tell(body.entity, fault);
+            }
         });
 }
 
-/// Steps all bodies that are due, on any number of threads.
+/// A body that may step.
+type Stepping = (
+    Moving,
+    &'static Immersed,
+    &'static ExternalWrench,
+    &'static mut LinearVelocity,
+    &'static mut AngularVelocity,
+    Option<&'static Hosted>,
+);
+
+/// Steps all bodies that are due, on any number of threads, and writes their velocities.
 pub(crate) fn step(
     time: Res<Time<Fixed>>,
     settings: Res<ImmersionSettings>,
     around: Res<Surroundings>,
     view: View,
+    faults: Res<Faults>,
+    mut ticks: ResMut<Ticks>,
+    change: SystemChangeTick,
     mut count: Local<u32>,
-    mut bodies: Query<
-        (&mut Stepped, &Immersed, &ExternalWrench, Option<&Hosted>),
-        (Without<ChildOf>, Without<Quarantined>),
-    >,
+    mut bodies: Query<Stepping, (Without<ChildOf>, Without<Quarantined>)>,
 ) {
     let dt = time.delta_secs_f64();
     let spans = view.spans();
-    let mut due = Vec::new();
-    for (mut stepped, immersed, wrench, hosted) in &mut bodies {
-        if stepped.fault.is_some() || hosted.is_some_and(|hosted| hosted.asleep) {
-            continue;
-        }
-        let pushed = *wrench != ExternalWrench::default();
-        if !stepped.is_due() {
-            if !pushed {
-                stepped.pass();
-                continue;
-            }
-            stepped.stop();
-        }
-        let number = immersed.number.unwrap_or(0);
-        let position = stepped.state().position;
-        let span = match &spans {
-            // What a physics engine hosts, it moves at every step.
-            Some(spans) if !pushed && hosted.is_none() => spans.of(position, number, *count),
-            _ => 1,
-        };
-        due.push(Due {
-            stepped,
-            number,
-            wrench: *wrench,
-            span,
-        });
-    }
     let fixed = FixedStep {
         start: time.elapsed_secs_f64() - dt,
         dt,
         settings: &settings,
         around: &around,
+        faults: &faults,
     };
-    crowd::step(due, &fixed);
-    *count = count.wrapping_add(1);
-}
-
-/// Writes the velocities after the step.
-pub(crate) fn write(
-    mut bodies: Query<
-        (&mut Stepped, &mut LinearVelocity, &mut AngularVelocity),
-        (Without<ChildOf>, Without<Quarantined>),
-    >,
-) {
     bodies
         .par_iter_mut()
-        .for_each(|(mut stepped, mut velocity, mut angular_velocity)| {
-            if stepped.fault.is_none() {
-                (*velocity, *angular_velocity) = stepped.velocities();
-            }
-        });
+        .batching_strategy(BatchingStrategy::new().batches_per_thread(TASKS))
+        .for_each_init(
+            || Crowd::new(&fixed),
+            |crowd, (mut body, immersed, wrench, mut velocity, mut angular_velocity, hosted)| {
+                if hosted.is_some_and(|hosted| hosted.asleep) {
+                    if !std::mem::replace(&mut body.pace.rests, true) {
+                        (*velocity, *angular_velocity) = body.stepped.velocities();
+                    }
+                    return;
+                }
+                let pushed = *wrench != ExternalWrench::default();
+                if !body.pace.is_due() {
+                    if !pushed {
+                        body.pace.pass();
+                        return;
+                    }
+                    body.stop();
+                }
+                let number = immersed.number.unwrap_or(0);
+                let span = match &spans {
+                    // What a physics engine hosts, it moves at every step.
+                    Some(spans) if !pushed && hosted.is_none() => {
+                        spans.of(body.stepped.state().position, number, *count)
+                    }
+                    _ => 1,
+                };
+                crowd.add(Due {
+                    entity: body.entity,
+                    stepped: body.stepped.into_inner(),
+                    pace: body.pace.into_inner(),
+                    drawn: body.drawn.into_inner(),
+                    velocity: Mut::into_inner(velocity),
+                    angular_velocity: Mut::into_inner(angular_velocity),
+                    number,
+                    wrench: *wrench,
+                    span,
+                });
+            },
+        );
+    *count = count.wrapping_add(1);
+    ticks.stepped = change.this_run();
 }

@@ -7,24 +7,23 @@
 //! touches nothing, along the vertical. A body that met nothing is then where the fluid took it, in double precision;
 //! another has what contacts left of these velocities (`FreeFlight::met`).
 //!
-//! What that leaves out: along a surface a body has the mass that it has towards it, so that friction stops it later than it
-//! should where the two differ; and a contact off the centre of a body without symmetry feels no coupling of turning and
-//! moving.
+//! The engine solves a contact with one mass, that along the normal; along a surface, where a body may be lighter, friction
+//! is made up for afterwards ([`ContactMass::corrected`]). What that leaves out: a contact off the centre of a body without
+//! symmetry feels no coupling of turning and moving.
 //!
 //! # Sleep
 //!
 //! Avian lets bodies sleep that turn slower than 2 rad/s (a `SleepThreshold`, to be changed once a body is `Hosted`) and wakes
 //! them. One that sleeps is woken also by an [`AmbientWind`] or an [`ExternalWrench`] that
-//! would move it, by [`STIRRING`] of its weight in the fluid.
+//! would move it, by [`Loads::STIRRING`] of its weight in the fluid.
 //!
 //! [`AmbientWind`]: bevy_langevin_rigid::AmbientWind
+//! [`ContactMass::corrected`]: bevy_langevin_rigid::langevin_rigid::ContactMass::corrected
+//! [`Loads::STIRRING`]: bevy_langevin_rigid::langevin_rigid::Loads::STIRRING
 //! [`ExternalWrench`]: bevy_langevin_rigid::ExternalWrench
 
 mod convert;
-mod handed;
 mod plugin;
 mod steps;
-mod stir;
 
 pub use plugin::LangevinRigidAvianPlugin;
-pub use stir::STIRRING;

@@ -5,7 +5,7 @@ use bevy_app::{App, FixedPostUpdate, FixedUpdate, Plugin};
 use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_langevin_rigid::LangevinRigidSystems;
 
-use crate::{steps, stir};
+use crate::steps;
 
 /// Gives bodies that are `Immersed` and have Avian's `RigidBody::Dynamic` the contacts of Avian.
 ///
@@ -18,7 +18,7 @@ impl Plugin for LangevinRigidAvianPlugin {
         app.add_systems(
             FixedUpdate,
             (
-                (steps::host, stir::stir, steps::read)
+                (steps::host, steps::stir, steps::read)
                     .chain()
                     .after(LangevinRigidSystems::Join)
                     .before(LangevinRigidSystems::Read),

@@ -4,19 +4,17 @@ use avian3d::math::SymmetricMatrix3;
 use avian3d::prelude::{
     AngularVelocity, Collisions, ComputedAngularInertia, ComputedCenterOfMass, ComputedMass,
     CustomVelocityIntegration, LinearVelocity, NoAutoAngularInertia, NoAutoCenterOfMass,
-    NoAutoMass, Position, RigidBody, Rotation, SleepThreshold, Sleeping,
+    NoAutoMass, Position, RigidBody, Rotation, SleepThreshold, Sleeping, WakeBody,
 };
 use bevy_ecs::entity::Entity;
 use bevy_ecs::query::{Has, With, Without};
 use bevy_ecs::system::{Commands, Query, Res};
-use bevy_langevin_rigid::langevin_rigid::FreeFlight;
-use bevy_langevin_rigid::{Hosted, Stepped};
-use bevy_math::{DVec3, Vec3};
+use bevy_langevin_rigid::{Handed, Hosted, Sleepers, Stepped};
+use bevy_math::Vec3;
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 
 use crate::convert;
-use crate::handed::Handed;
 
 /// Below this a body is still. Avian's own angular threshold is for bodies of a metre; at 2 rad/s the rim of a leaf moves at a
 /// tenth of a metre a second.
@@ -45,6 +43,13 @@ pub(crate) fn host(bodies: Query<(Entity, &RigidBody), New>, mut commands: Comma
     }
 }
 
+/// Wakes bodies that sleep where they would be moved.
+pub(crate) fn stir(mut sleepers: Sleepers, mut commands: Commands) {
+    for entity in sleepers.stirred() {
+        commands.queue(WakeBody(entity));
+    }
+}
+
 /// Takes what the game has changed since the last step, and lets lie what sleeps.
 pub(crate) fn read(
     mut bodies: Query<(
@@ -59,47 +64,18 @@ pub(crate) fn read(
         Has<Sleeping>,
     )>,
 ) {
-    for (
-        mut stepped,
-        mut handed,
-        mut hosted,
-        transform,
-        position,
-        rotation,
-        velocity,
-        spin,
-        asleep,
-    ) in &mut bodies
+    for (mut stepped, mut handed, mut hosted, transform, position, rotation, v, omega, asleep) in
+        &mut bodies
     {
         if hosted.asleep != asleep {
             hosted.asleep = asleep;
         }
-        if !handed.is_moved(position, rotation, velocity, spin) {
-            continue;
-        }
-        let finite = position.0.is_finite()
-            && rotation.0.is_finite()
-            && velocity.0.is_finite()
-            && spin.0.is_finite();
+        let motion = convert::motion(position, rotation, v, omega);
         // Avian has not placed it yet, or the game has lost it.
-        if !finite || *position == Position::PLACEHOLDER || rotation.0.length_squared() < 0.5 {
+        if *position == Position::PLACEHOLDER || !motion.is_sound() {
             continue;
         }
-        let mut state = *stepped.state();
-        (state.position, state.orientation) =
-            convert::centre(*position, *rotation, arm(&stepped, transform));
-        state.set_world_velocities(
-            velocity.0.as_dvec3().to_array(),
-            spin.0.as_dvec3().to_array(),
-        );
-        stepped.set_state(state);
-        *handed = Handed {
-            position: *position,
-            rotation: *rotation,
-            velocity: *velocity,
-            spin: *spin,
-            flies: false,
-        };
+        handed.read(&mut stepped, transform, motion);
     }
 }
 
@@ -113,6 +89,7 @@ pub(crate) fn hand_over(
             &Stepped,
             &mut Handed,
             &Transform,
+            (&Position, &Rotation),
             &mut LinearVelocity,
             &mut AngularVelocity,
             &mut ComputedMass,
@@ -128,6 +105,7 @@ pub(crate) fn hand_over(
         stepped,
         mut handed,
         transform,
+        (position, rotation),
         mut v,
         mut omega,
         mut mass,
@@ -135,16 +113,13 @@ pub(crate) fn hand_over(
         mut centre,
     ) in &mut bodies
     {
-        let flight = stepped.flight(dt);
-        *v = convert::velocity(flight.velocity());
-        *omega = convert::spin(flight.angular_velocity());
-        (handed.velocity, handed.spin, handed.flies) = (*v, *omega, true);
-        centre.0 = arm(stepped, transform).as_vec3();
-        let Some(stepper) = stepped.stepper() else {
+        let now = convert::motion(position, rotation, &v, &omega);
+        let (motion, contact) = handed.fly(stepped, now, normal(entity, &collisions), dt);
+        (v.0, omega.0) = (motion.velocity, motion.angular_velocity);
+        centre.0 = stepped.arm(transform).as_vec3();
+        let Some(contact) = contact else {
             continue;
         };
-        let normal = normal(entity, &collisions).as_dvec3().to_array();
-        let contact = stepper.contact_mass(stepped.state().orientation, normal);
         *mass = ComputedMass::new(contact.mass as f32);
         let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] =
             contact.inertia.map(|row| row.map(|x| x as f32));
@@ -183,51 +158,17 @@ pub(crate) fn take_back(
         asleep,
     ) in &mut bodies
     {
-        if !std::mem::take(&mut handed.flies) {
+        let now = convert::motion(&position, &rotation, &v, &omega);
+        let Some(landed) = handed.land(&mut stepped, transform, now, dt) else {
+            continue;
+        };
+        if asleep {
+            handed.keep(now);
             continue;
         }
-        let arm = arm(&stepped, transform);
-        if handed.is_accelerated(&v, &omega) {
-            let met = met(&stepped.flight(dt), arm, *position, *rotation, *v, *omega);
-            stepped.set_state(met);
-        } else if !asleep {
-            (*position, *rotation) = convert::pose(stepped.state(), arm);
-        }
-        if !asleep {
-            let state = stepped.state();
-            *v = convert::velocity(state.world_velocity());
-            *omega = convert::spin(state.world_angular_velocity());
-        }
-        *handed = Handed {
-            position: *position,
-            rotation: *rotation,
-            velocity: *v,
-            spin: *omega,
-            flies: false,
-        };
+        (position.0, rotation.0) = (landed.translation, landed.rotation);
+        (v.0, omega.0) = (landed.velocity, landed.angular_velocity);
     }
-}
-
-fn met(
-    flight: &FreeFlight,
-    arm: DVec3,
-    position: Position,
-    rotation: Rotation,
-    v: LinearVelocity,
-    omega: AngularVelocity,
-) -> bevy_langevin_rigid::langevin_rigid::State {
-    let (centre, orientation) = convert::centre(position, rotation, arm);
-    flight.met(
-        centre,
-        orientation,
-        v.0.as_dvec3().to_array(),
-        omega.0.as_dvec3().to_array(),
-    )
-}
-
-/// Centre of mass from the origin of the entity's frame, in that frame (m).
-fn arm(stepped: &Stepped, transform: &Transform) -> DVec3 {
-    transform.scale.as_dvec3() * stepped.centre_of_mass()
 }
 
 /// The mean normal of what a body touches, or up.

@@ -9,27 +9,26 @@
 //!
 //! What a game sets in `FixedUpdate` for the coming step, it sets before [`LangevinRigidSystems::Read`].
 //!
-//! What that leaves out: along a surface a body has the mass that it has towards it, so that friction stops it later than it
-//! should where the two differ; and a contact off the centre of a body without symmetry feels no coupling of turning and
-//! moving.
+//! The engine solves a contact with one mass, that along the normal; along a surface, where a body may be lighter, friction
+//! is made up for afterwards ([`ContactMass::corrected`]). What that leaves out: a contact off the centre of a body without
+//! symmetry feels no coupling of turning and moving.
 //!
 //! # Sleep
 //!
 //! Rapier lets bodies sleep and wakes them. A body that comes without a `Sleeping` gets one for small bodies: it sleeps once
 //! none of its points has moved faster than some 0.15 m/s for half a second (and 2 rad/s, for a body without colliders). One
-//! that sleeps is woken also by an [`AmbientWind`] or an [`ExternalWrench`] that would move it, by [`STIRRING`] of its weight
+//! that sleeps is woken also by an [`AmbientWind`] or an [`ExternalWrench`] that would move it, by [`Loads::STIRRING`] of its weight
 //! in the fluid.
 //!
 //! [`AmbientWind`]: bevy_langevin_rigid::AmbientWind
+//! [`ContactMass::corrected`]: bevy_langevin_rigid::langevin_rigid::ContactMass::corrected
+//! [`Loads::STIRRING`]: bevy_langevin_rigid::langevin_rigid::Loads::STIRRING
 //! [`ExternalWrench`]: bevy_langevin_rigid::ExternalWrench
 //! [`LangevinRigidSystems::Read`]: bevy_langevin_rigid::LangevinRigidSystems::Read
 
 mod convert;
-mod handed;
 mod plugin;
 mod steps;
-mod stir;
 mod timestep;
 
 pub use plugin::LangevinRigidRapierPlugin;
-pub use stir::STIRRING;

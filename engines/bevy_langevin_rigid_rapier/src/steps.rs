@@ -1,13 +1,12 @@
 //! From the fluid to Rapier and back.
 
-use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::hierarchy::ChildOf;
 use bevy_ecs::query::{Has, Or, With, Without};
 use bevy_ecs::system::{Commands, Query, Res};
-use bevy_langevin_rigid::{Hosted, Quarantined, Stepped};
+use bevy_langevin_rigid::{Handed, Hosted, Motion, Quarantined, Sleepers, Stepped};
 use bevy_log::error;
-use bevy_math::{DVec3, Vec3};
+use bevy_math::Vec3;
 use bevy_rapier3d::dynamics::{
     RapierRigidBodyHandle, RigidBody, RigidBodyDisabled, Sleeping, SoftCcd, Velocity,
 };
@@ -19,9 +18,10 @@ use bevy_rapier3d::rapier::geometry::{ColliderSet, NarrowPhase};
 use bevy_rapier3d::rapier::math::Pose;
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::{GlobalTransform, Transform};
+use bevy_transform_interpolation::prelude::TransformInterpolation;
+use bevy_transform_interpolation::{RotationEasingState, TranslationEasingState};
 
 use crate::convert;
-use crate::handed::Handed;
 
 /// Below this a body is still. Rapier's own thresholds are for bodies of a metre, which do not rock on a rim of a millimetre.
 const RESTING: Sleeping = Sleeping {
@@ -49,13 +49,26 @@ pub(crate) fn release(
 }
 
 /// Takes bodies in that have joined and are dynamic bodies of Rapier.
-pub(crate) fn host(bodies: Query<(Entity, &RigidBody, &Stepped), New>, mut commands: Commands) {
-    for (entity, body, stepped) in &bodies {
+pub(crate) fn host(
+    bodies: Query<(Entity, &RigidBody, &Stepped, &Transform), New>,
+    mut commands: Commands,
+) {
+    for (entity, body, stepped, transform) in &bodies {
         if *body == RigidBody::Dynamic {
+            let velocity = convert::velocity(&Motion::of(stepped, transform));
             commands
                 .entity(entity)
                 .try_insert((Hosted::default(), Handed::default()))
-                .try_insert_if_new((convert::velocity_of(stepped.state()), RESTING, AHEAD));
+                .try_insert_if_new((velocity, RESTING, AHEAD, TransformInterpolation));
+        }
+    }
+}
+
+/// Wakes bodies that sleep where they would be moved.
+pub(crate) fn stir(mut sleepers: Sleepers, mut bodies: Query<&mut Sleeping>) {
+    for entity in sleepers.stirred() {
+        if let Ok(mut sleeping) = bodies.get_mut(entity) {
+            sleeping.sleeping = false;
         }
     }
 }
@@ -72,6 +85,7 @@ pub(crate) fn read(
             &mut Velocity,
             &Sleeping,
             Has<RigidBodyDisabled>,
+            Option<(&mut TranslationEasingState, &mut RotationEasingState)>,
         ),
         Without<ChildOf>,
     >,
@@ -85,47 +99,31 @@ pub(crate) fn read(
         mut velocity,
         sleeping,
         disabled,
+        drawn,
     ) in &mut bodies
     {
         let asleep = sleeping.sleeping || disabled;
         if hosted.asleep != asleep {
             hosted.asleep = asleep;
         }
-        let pose = Pose::from_parts(transform.translation, transform.rotation);
-        if !handed.is_added() && handed.pose == pose && handed.velocity == *velocity {
+        let motion = convert::motion_of_entity(&transform, &velocity);
+        if motion.is_sound() {
+            handed.read(&mut stepped, &transform, motion);
             continue;
         }
-        let arm = arm(&stepped, &transform);
-        if is_sound(&pose, &velocity) {
-            let mut state = *stepped.state();
-            (state.position, state.orientation) = convert::centre(&pose, arm);
-            state.set_world_velocities(
-                velocity.linear.as_dvec3().to_array(),
-                velocity.angular.as_dvec3().to_array(),
-            );
-            stepped.set_state(state);
-        } else {
-            error!(
-                "the body {entity} was given a `Transform` or a `Velocity` with a number that is not finite or a rotation of \
-                 no length ({pose:?}, {:?}); it is left as it was",
-                *velocity
-            );
-            // Before Rapier has seen it.
-            let pose = convert::pose(stepped.state(), arm);
-            (transform.translation, transform.rotation) = (pose.translation, pose.rotation);
-            *velocity = convert::velocity_of(stepped.state());
+        error!(
+            "the body {entity} was given a `Transform` or a `Velocity` with a number that is not finite or a rotation of no \
+             length ({motion:?}); it is left as it was"
+        );
+        // Before Rapier has seen it.
+        let motion = Motion::of(&stepped, &transform);
+        (transform.translation, transform.rotation) = (motion.translation, motion.rotation);
+        *velocity = convert::velocity(&motion);
+        handed.keep(motion);
+        if let Some((mut translation, mut rotation)) = drawn {
+            (translation.start, rotation.start) = (None, None);
         }
-        handed.pose = Pose::from_parts(transform.translation, transform.rotation);
-        handed.velocity = *velocity;
     }
-}
-
-fn is_sound(pose: &Pose, velocity: &Velocity) -> bool {
-    pose.translation.is_finite()
-        && pose.rotation.is_finite()
-        && pose.rotation.length_squared() > 0.5
-        && velocity.linear.is_finite()
-        && velocity.angular.is_finite()
 }
 
 /// Bodies that the fluid does not move: held by a parent, or in quarantine.
@@ -170,25 +168,22 @@ pub(crate) fn hand_over(
                 let pose = Pose::from_parts(place.translation, place.rotation);
                 body.set_position(pose, false);
             }
-            set_velocity(body, Velocity::zero());
-            *handed = Handed::of(body);
+            let at_rest = Motion {
+                velocity: Vec3::ZERO,
+                angular_velocity: Vec3::ZERO,
+                ..convert::motion(body)
+            };
+            set_velocity(body, &at_rest);
+            handed.keep(at_rest);
             continue;
         }
-        let flight = stepped.flight(dt);
-        set_velocity(
-            body,
-            convert::velocity(flight.velocity(), flight.angular_velocity()),
-        );
-        if let Some(stepper) = stepped.stepper() {
-            let normal = normal(body, &simulation.narrow_phase).as_dvec3().to_array();
-            let contact = stepper.contact_mass(stepped.state().orientation, normal);
-            let mass = convert::mass(&contact, arm(stepped, transform));
+        let normal = normal(body, &simulation.narrow_phase);
+        let (motion, contact) = handed.fly(stepped, convert::motion(body), normal, dt);
+        set_velocity(body, &motion);
+        if let Some(contact) = contact {
+            let mass = convert::mass(&contact, stepped.arm(transform));
             body.set_additional_mass_properties(mass, false);
         }
-        *handed = Handed {
-            flies: true,
-            ..Handed::of(body)
-        };
     }
 }
 
@@ -206,31 +201,21 @@ pub(crate) fn take_back(
 ) {
     let dt = time.delta_secs_f64();
     for (mut stepped, mut handed, transform, handle, link) in &mut bodies {
-        if !std::mem::take(&mut handed.flies) {
-            continue;
-        }
         let Ok(mut set) = sets.get_mut(link.0) else {
             continue;
         };
         let Some(body) = set.bodies.get_mut(handle.0) else {
             continue;
         };
-        let arm = arm(&stepped, transform);
-        let now = Handed::of(body);
-        if now.velocity == handed.velocity {
-            body.set_position(convert::pose(stepped.state(), arm), false);
-        } else {
-            let (centre, orientation) = convert::centre(&now.pose, arm);
-            let met = stepped.flight(dt).met(
-                centre,
-                orientation,
-                now.velocity.linear.as_dvec3().to_array(),
-                now.velocity.angular.as_dvec3().to_array(),
-            );
-            stepped.set_state(met);
+        let now = convert::motion(body);
+        let Some(landed) = handed.land(&mut stepped, transform, now, dt) else {
+            continue;
+        };
+        if convert::pose(&landed) != *body.position() {
+            body.set_position(convert::pose(&landed), false);
         }
-        set_velocity(body, convert::velocity_of(stepped.state()));
-        *handed = Handed::of(body);
+        set_velocity(body, &landed);
+        handed.keep(convert::motion(body));
     }
 }
 
@@ -251,14 +236,9 @@ fn leave_alone(body: &mut rapier::dynamics::RigidBody, colliders: &mut ColliderS
     body.set_allow_fast_rotation(true);
 }
 
-fn set_velocity(body: &mut rapier::dynamics::RigidBody, velocity: Velocity) {
-    body.set_linvel(velocity.linear, false);
-    body.set_angvel(velocity.angular, false);
-}
-
-/// Centre of mass from the origin of the entity's frame, in that frame (m).
-fn arm(stepped: &Stepped, transform: &Transform) -> DVec3 {
-    transform.scale.as_dvec3() * stepped.centre_of_mass()
+fn set_velocity(body: &mut rapier::dynamics::RigidBody, motion: &Motion) {
+    body.set_linvel(motion.velocity, false);
+    body.set_angvel(motion.angular_velocity, false);
 }
 
 /// The mean normal of what a body touches, or up.

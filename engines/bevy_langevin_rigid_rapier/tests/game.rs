@@ -3,13 +3,16 @@
 
 mod common;
 
+use std::time::Duration;
+
 use bevy_ecs::hierarchy::ChildOf;
 use bevy_langevin_rigid::{Hosted, LinearVelocity};
 use bevy_math::{Quat, Vec3};
 use bevy_rapier3d::prelude::{RigidBody, Sleeping, Velocity};
+use bevy_time::{Fixed, Time, TimeUpdateStrategy};
 use bevy_transform::components::Transform;
 
-use common::{app, drop_card, ground, place, state, steps};
+use common::{DT, app, drop_card, ground, place, state, steps};
 
 #[test]
 fn a_game_moves_and_pushes_a_body() {
@@ -40,6 +43,48 @@ fn a_body_is_released_with_the_velocity_of_either_plugin() {
         let speed = state(app.world(), entity).world_velocity()[0];
         assert!(speed > 0.5 && speed <= 1.0, "{speed}");
     }
+}
+
+#[test]
+fn a_body_is_drawn_between_its_last_two_fixed_steps() {
+    let mut app = app();
+    let entity = drop_card(&mut app, Transform::from_xyz(0.0, 50.0, 0.0));
+    steps(&mut app, 30);
+    let frame = Duration::from_secs_f64(DT / 4.0);
+    app.insert_resource(TimeUpdateStrategy::ManualDuration(frame));
+    let (mut before, mut after) = (f64::NAN, state(app.world(), entity).position[1]);
+    let mut seen = 0;
+    for _ in 0..40 {
+        steps(&mut app, 1);
+        let now = state(app.world(), entity).position[1];
+        if now != after {
+            (before, after) = (after, now);
+        }
+        let part = app
+            .world()
+            .resource::<Time<Fixed>>()
+            .overstep_fraction_f64();
+        let between = before + part * (after - before);
+        let drawn = f64::from(place(app.world(), entity).y);
+        if between.is_finite() {
+            seen += 1;
+            assert!((drawn - between).abs() < 2e-5, "{drawn} {between}");
+        }
+    }
+    assert!(seen > 30);
+    // Where the game has moved it, it is drawn at once, and goes on from there.
+    app.world_mut()
+        .get_mut::<Transform>(entity)
+        .unwrap()
+        .translation
+        .y = 80.0;
+    for _ in 0..12 {
+        steps(&mut app, 1);
+        let drawn = place(app.world(), entity).y;
+        assert!(drawn > 79.5 && drawn <= 80.0, "{drawn}");
+    }
+    let y = state(app.world(), entity).position[1];
+    assert!(y > 79.5 && y < 80.0, "{y}");
 }
 
 #[test]

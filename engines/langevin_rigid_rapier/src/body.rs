@@ -3,13 +3,10 @@
 use std::sync::Arc;
 
 use langevin_rigid::linalg::rotate;
-use langevin_rigid::{FreeFlight, Input, State, StepError, Stepper};
+use langevin_rigid::{ContactMass, FreeFlight, Input, Loads, State, StepError, Stepper};
 use rapier3d::prelude::{MassProperties, Pose, RigidBody, Vector};
 
 use crate::convert::{array, matrix, pose, quaternion, vector};
-
-/// Share of its weight in the fluid by which the fluid must push a sleeping body to wake it.
-pub const STIRRING: f64 = 0.3;
 
 /// A body in a fluid, and what Rapier was last given of it.
 #[derive(Debug, Clone)]
@@ -18,8 +15,8 @@ pub(crate) struct Body {
     pub(crate) state: State,
     /// Centre of mass in the frame of the rigid body (m).
     centre_of_mass: [f64; 3],
-    /// The step that Rapier is to take; none while the body sleeps.
-    flight: Option<FreeFlight>,
+    /// The step that Rapier is to take, and the mass for it; none while the body sleeps.
+    flight: Option<(FreeFlight, ContactMass)>,
     given: Given,
 }
 
@@ -80,7 +77,8 @@ impl Body {
 
     /// Whether the fluid moves the body where it lies.
     pub(crate) fn is_stirred(&self, input: &Input) -> bool {
-        self.stepper.loads(&self.state, input).push_to_weight() > STIRRING
+        let loads = self.stepper.loads(&self.state, input);
+        self.stepper.push_to_weight(&loads) > Loads::STIRRING
     }
 
     /// The step in the fluid alone, as velocities for Rapier.
@@ -103,7 +101,7 @@ impl Body {
         );
         body.set_linvel(vector(flight.velocity()), false);
         body.set_angvel(vector(flight.angular_velocity()), false);
-        self.flight = Some(flight);
+        self.flight = Some((flight, mass));
         self.given = Given::of(body);
         Ok(())
     }
@@ -116,7 +114,7 @@ impl Body {
     /// What Rapier made of the step.
     pub(crate) fn land(&mut self, body: &mut RigidBody) {
         let now = Given::of(body);
-        let Some(flight) = self.flight.take() else {
+        let Some((flight, mass)) = self.flight.take() else {
             self.read(body);
             return;
         };
@@ -128,7 +126,7 @@ impl Body {
             self.state = flight.met(
                 self.centre(&now.pose),
                 quaternion(now.pose.rotation),
-                array(now.velocity),
+                mass.corrected(flight.velocity(), array(now.velocity)),
                 array(now.spin),
             );
         }

@@ -11,15 +11,17 @@
 //! 3. [`ImmersedBodies::after_step`]: a body that met nothing is where the fluid took it, to the last bit of double
 //!    precision; another has what contacts left of these velocities (`FreeFlight::met`).
 //!
-//! What that leaves out: along a surface a body has the mass that it has towards it, so that friction stops it later than it
-//! should where the two differ; and a contact off the centre of a body without symmetry feels no coupling of turning and
-//! moving.
+//! The engine solves a contact with one mass, that along the normal; along a surface, where a body may be lighter, friction
+//! is made up for afterwards ([`ContactMass::corrected`]). What that leaves out: a contact off the centre of a body without
+//! symmetry feels no coupling of turning and moving.
 //!
 //! # Sleep
 //!
 //! Rapier lets bodies sleep and wakes them when something moves them. A body that sleeps is woken also by a fluid that would
-//! move it: by [`STIRRING`] of its weight in the fluid.
+//! move it: by [`Loads::STIRRING`] of its weight in the fluid.
 //!
+//! [`ContactMass::corrected`]: langevin_rigid::ContactMass::corrected
+//! [`Loads::STIRRING`]: langevin_rigid::Loads::STIRRING
 //! [`Stepper::fly`]: langevin_rigid::Stepper::fly
 //! [`Stepper::contact_mass`]: langevin_rigid::Stepper::contact_mass
 
@@ -28,7 +30,6 @@ mod body;
 mod convert;
 
 pub use bodies::{ImmersedBodies, Immersion, InsertError, StepTrouble};
-pub use body::STIRRING;
 
 /// The library that bodies are stepped with.
 pub use langevin_rigid;
