@@ -8,7 +8,7 @@ use crate::equations::{Equations, Noise, Stepped};
 use crate::input::{Flow, Forcing, Input, Wrench};
 use crate::kirchhoff::Motion;
 use crate::lanes::{Doubles, Lanes, Singles};
-use crate::linalg::{Vec3, each, join};
+use crate::linalg::{Vec3, each, join, split};
 use crate::noise::{Counter, NoiseStream};
 use crate::state::State;
 use crate::stepper::{StepError, Stepper};
@@ -314,15 +314,15 @@ impl<P: Precision> Pack<P> {
     }
 
     fn state(&self, place: usize) -> State {
-        let velocity = self.velocity.map(|x| x[place].to_f64());
+        let (velocity, angular_velocity) = split(&get(&self.velocity, place));
         State {
             time: self.time[place],
             step: self.step[place],
-            position: self.position.map(|x| x[place].to_f64()),
-            orientation: self.orientation.map(|x| x[place].to_f64()),
-            velocity: [velocity[0], velocity[1], velocity[2]],
-            angular_velocity: [velocity[3], velocity[4], velocity[5]],
-            fluctuation: self.fluctuation.map(|x| x[place].to_f64()),
+            position: get(&self.position, place),
+            orientation: get(&self.orientation, place),
+            velocity,
+            angular_velocity,
+            fluctuation: get(&self.fluctuation, place),
         }
     }
 
@@ -437,6 +437,11 @@ fn columns<P: Precision>(inputs: &[Input; PACK], of: impl Fn(&Input) -> Vec3) ->
         put(&mut columns, place, &of(input));
     }
     columns
+}
+
+/// What one place has of each row.
+fn get<P: Precision, const N: usize>(rows: &[[P; PACK]; N], place: usize) -> [f64; N] {
+    std::array::from_fn(|row| rows[row][place].to_f64())
 }
 
 fn put<P: Precision, const N: usize>(to: &mut [[P; PACK]; N], place: usize, from: &[f64; N]) {

@@ -122,17 +122,16 @@ impl FreeFlight {
 }
 
 /// What contacts leave of a velocity that has this mean over a step and this one at its `end`, if they turn the mean into
-/// `solved`.
+/// `solved`: that, and of the gain over the mean what they do not act against.
 fn left(end: Vec3, mean: Vec3, solved: Vec3) -> Vec3 {
     let (gain, change) = (sub(end, mean), sub(solved, mean));
-    let against = dot(gain, change).min(0.0);
-    let squared = dot(change, change);
-    let share = if squared > 0.0 {
-        -against / squared
+    let squared = dot(gain, gain);
+    let held = if squared > 0.0 {
+        (-dot(gain, change) / squared).clamp(0.0, 1.0)
     } else {
         0.0
     };
-    add(solved, add_scaled(gain, share, change))
+    add_scaled(solved, 1.0 - held, gain)
 }
 
 impl Stepper {
@@ -261,6 +260,11 @@ mod tests {
         assert!(norm(after([mean[0], 0.0, mean[2]])) < 1e-12);
         // It is thrown up from the ground.
         assert!((after([0.0, 0.5, 0.0])[1] - 0.5).abs() < 1e-12);
+        // Friction stops its slide as well, and does not turn it back.
+        let sliding = add(mean, [0.02, 0.0, 0.0]);
+        let gain = sub(flight.end().world_velocity(), mean);
+        let end = add(sliding, gain);
+        assert!(norm(left(end, sliding, [0.0; 3])) < 1e-12);
         // A wall pushes it aside, and it falls on.
         let aside = after(add(mean, [0.3, 0.0, 0.0]));
         let end = flight.end().world_velocity();

@@ -124,6 +124,7 @@ pub(crate) fn quat_normalize<R: Real>(q: Quat<R>) -> Quat<R> {
 }
 
 /// The vector `a` of the body frame, in the world frame.
+#[inline]
 pub fn rotate(q: Quat, a: Vec3) -> Vec3 {
     let u = [q[0], q[1], q[2]];
     let t = scale(2.0, cross(u, a));
@@ -131,6 +132,7 @@ pub fn rotate(q: Quat, a: Vec3) -> Vec3 {
 }
 
 /// The vector `a` of the world frame, in the body frame.
+#[inline]
 pub fn rotate_back(q: Quat, a: Vec3) -> Vec3 {
     rotate([-q[0], -q[1], -q[2], q[3]], a)
 }

@@ -41,16 +41,19 @@ impl Default for State {
 
 impl State {
     /// Velocity of the centre of mass, world frame (m/s).
+    #[inline]
     pub fn world_velocity(&self) -> Vec3 {
         rotate(self.orientation, self.velocity)
     }
 
     /// Angular velocity, world frame (rad/s).
+    #[inline]
     pub fn world_angular_velocity(&self) -> Vec3 {
         rotate(self.orientation, self.angular_velocity)
     }
 
     /// Sets both velocities from the world frame (m/s, rad/s).
+    #[inline]
     pub fn set_world_velocities(&mut self, velocity: Vec3, angular_velocity: Vec3) {
         self.velocity = rotate_back(self.orientation, velocity);
         self.angular_velocity = rotate_back(self.orientation, angular_velocity);

@@ -5,7 +5,10 @@
 
 use std::time::{Duration, Instant};
 
-use bevy_app::{App, RunFixedMainLoop, RunFixedMainLoopSystems, TaskPoolPlugin};
+use bevy_app::{
+    App, RunFixedMainLoop, RunFixedMainLoopSystems, TaskPoolOptions, TaskPoolPlugin,
+    TaskPoolThreadAssignmentPolicy,
+};
 use bevy_asset::{AssetPlugin, Assets};
 use bevy_ecs::prelude::*;
 use bevy_langevin_rigid::langevin_rigid::wind::{GustSettings, Gusts, Wind};
@@ -45,7 +48,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let mut app = App::new();
     app.add_plugins((
-        TaskPoolPlugin::default(),
+        TaskPoolPlugin {
+            task_pool_options: two_cores(),
+        },
         TimePlugin,
         AssetPlugin::default(),
         LangevinRigidPlugin,
@@ -81,6 +86,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     report(&mut app, viewer);
     Ok(())
+}
+
+/// Two threads for what systems share out, whatever the machine has.
+fn two_cores() -> TaskPoolOptions {
+    TaskPoolOptions {
+        compute: TaskPoolThreadAssignmentPolicy {
+            min_threads: 2,
+            max_threads: 2,
+            ..TaskPoolOptions::default().compute
+        },
+        ..TaskPoolOptions::default()
+    }
 }
 
 /// A place between two distances from the origin, evenly by number, and a rotation.

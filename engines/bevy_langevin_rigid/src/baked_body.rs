@@ -4,6 +4,9 @@ use bevy_asset::io::Reader;
 use bevy_asset::{Asset, AssetLoader, LoadContext};
 use bevy_reflect::TypePath;
 use langevin_rigid::{Bake, BakeError, Body};
+use langevin_rigid_bake::TriMesh;
+use langevin_rigid_bake::added_mass::Warning;
+use langevin_rigid_bake::body::{BodyBakeError, BodySpec, bake_body, mass_properties};
 use serde::{Deserialize, Serialize};
 
 /// A body with all that depends on its shape alone; what `langevin-rigid bake` writes.
@@ -23,6 +26,39 @@ pub struct BakedBody {
     pub bake: Bake,
     /// Where the centre of mass is in the frame of the mesh that is drawn (m).
     pub centre_of_mass: [f64; 3],
+}
+
+impl BakedBody {
+    /// Bakes the solid within a mesh, with what the bake warns of: for what [`Immersed::solid`](crate::Immersed::solid) cannot
+    /// say, such as where the centre of mass is. Takes seconds for a fine mesh.
+    ///
+    /// ```
+    /// use bevy_langevin_rigid::BakedBody;
+    /// use bevy_langevin_rigid::langevin_rigid_bake::{body::BodySpec, shapes::Shape};
+    /// // A ball of 10 g that is heavier below.
+    /// let ball = Shape::Sphere { radius: 0.05 }.mesh(500)?;
+    /// let spec = BodySpec { mass: Some(0.01), centre_of_mass: Some([0.0, -0.02, 0.0]), ..BodySpec::default() };
+    /// let (body, _warnings) = BakedBody::bake(&ball, &spec)?;
+    /// assert_eq!(body.centre_of_mass, [0.0, -0.02, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BodyBakeError`]: no mass, numbers that are none, a mesh that is no solid.
+    pub fn bake(mesh: &TriMesh, spec: &BodySpec) -> Result<(Self, Vec<Warning>), BodyBakeError> {
+        let centre_of_mass = mass_properties(mesh, spec)?.centre_of_mass;
+        let (body, added_mass) = bake_body(mesh, spec, &())?;
+        let warnings = added_mass.warnings.iter().map(ToString::to_string);
+        let body = Self {
+            bake: Bake {
+                error_estimate: added_mass.error_estimate,
+                warnings: warnings.collect(),
+                ..Self::from(body).bake
+            },
+            centre_of_mass,
+        };
+        Ok((body, added_mass.warnings))
+    }
 }
 
 impl From<Bake> for BakedBody {

@@ -9,9 +9,8 @@ use bevy_ecs::system::{Res, ResMut};
 use bevy_log::{error, warn};
 use bevy_mesh::{Indices, Mesh, MeshAccessError, PrimitiveTopology, VertexAttributeValues};
 use bevy_tasks::{AsyncComputeTaskPool, Task, TaskPool, futures::check_ready};
-use langevin_rigid::Bake;
 use langevin_rigid_bake::added_mass::Warning;
-use langevin_rigid_bake::body::{BodyBakeError, BodySpec, bake_body, mass_properties};
+use langevin_rigid_bake::body::{BodyBakeError, BodySpec};
 use langevin_rigid_bake::mesh::{close_seams, open_edge_count, weld};
 use langevin_rigid_bake::{MeshError, TriMesh};
 
@@ -218,27 +217,10 @@ fn bake(
         density: Some(solid.density()),
         ..BodySpec::default()
     };
-    let centre_of_mass = mass_properties(&mesh, &spec)?.centre_of_mass;
-    let (body, added_mass) = bake_body(&mesh, &spec, &())?;
+    let (body, warnings) = BakedBody::bake(&mesh, &spec)?;
     // The small added mass along a thin sheet hardly matters to how it moves, whatever its accuracy.
     let matters = |warning: &Warning| !matches!(warning, Warning::ThinnerThanTriangles { .. });
-    let bake = Bake {
-        body,
-        history: None,
-        error_estimate: added_mass.error_estimate,
-        warnings: added_mass
-            .warnings
-            .iter()
-            .map(ToString::to_string)
-            .collect(),
-        fingerprint: [0; 32],
-    };
-    let warnings = added_mass.warnings.into_iter().filter(matters).collect();
-    let body = BakedBody {
-        bake,
-        centre_of_mass,
-    };
-    Ok((body, warnings))
+    Ok((body, warnings.into_iter().filter(matters).collect()))
 }
 
 /// Joins the vertices that normals and texture coordinates have split.

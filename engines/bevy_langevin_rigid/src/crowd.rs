@@ -16,7 +16,7 @@ use crate::regions::Surroundings;
 use crate::stepped::{Mover, Stepped};
 
 /// Bodies that are gathered before they step: many of a kind fill the lanes, few stay in the cache.
-const GATHERED: usize = 512;
+const GATHERED: usize = 192;
 
 /// A body that takes a step.
 pub(crate) struct Due<'w> {

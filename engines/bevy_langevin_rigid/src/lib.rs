@@ -78,5 +78,7 @@ pub use winds::{Fan, LocalWind};
 
 /// The library that the plugin steps bodies with.
 pub use langevin_rigid;
+/// What bakes bodies of meshes.
+pub use langevin_rigid_bake;
 /// The library's bodies between two fluids.
 pub use langevin_rigid_world;

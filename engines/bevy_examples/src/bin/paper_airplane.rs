@@ -8,12 +8,11 @@ use bevy::ecs::system::SystemParam;
 use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
+use bevy_langevin_rigid::langevin_rigid_bake::TriMesh;
+use bevy_langevin_rigid::langevin_rigid_bake::body::BodySpec;
+use bevy_langevin_rigid::langevin_rigid_bake::shapes::Shape;
 use bevy_langevin_rigid::{BakedBody, Immersed, ShowForces};
 use bevy_langevin_rigid_examples::{Scene, matte, show, stand, sun};
-use langevin_rigid::Bake;
-use langevin_rigid_bake::TriMesh;
-use langevin_rigid_bake::body::{BodySpec, bake_body};
-use langevin_rigid_bake::shapes::Shape;
 
 /// The sheet that it is folded of: its side and thickness (m), and its mass (kg).
 const SIDE: f64 = 0.21;
@@ -144,14 +143,8 @@ fn bake(solid: &TriMesh) -> Result<BakedBody, BevyError> {
         centre_of_mass: Some(centre_of_mass),
         ..BodySpec::default()
     };
-    let (body, added_mass) = bake_body(solid, &spec, &())?;
-    Ok(BakedBody {
-        bake: Bake {
-            error_estimate: added_mass.error_estimate,
-            ..BakedBody::from(body).bake
-        },
-        centre_of_mass,
-    })
+    let (body, _) = BakedBody::bake(solid, &spec)?;
+    Ok(body)
 }
 
 fn drawn(solid: &TriMesh) -> Mesh {
