@@ -5,7 +5,6 @@ use avian3d::prelude::{Collider, PhysicsPlugins, RigidBody};
 use bevy_app::{App, TaskPoolPlugin};
 use bevy_asset::{AssetPlugin, Assets};
 use bevy_ecs::prelude::*;
-use bevy_langevin_rigid::langevin_rigid::Body;
 use bevy_langevin_rigid::{BakedBody, Immersed, LangevinRigidPlugin};
 use bevy_langevin_rigid_avian::LangevinRigidAvianPlugin;
 use bevy_mesh::MeshPlugin;
@@ -35,15 +34,11 @@ pub fn app() -> App {
     app
 }
 
-/// A card of cardboard.
-pub fn card() -> Body {
-    Body::cuboid([0.06, 0.0005, 0.09], 700.0).unwrap()
-}
-
 pub fn drop_card(app: &mut App, transform: Transform) -> Entity {
     let mut bodies = app.world_mut().resource_mut::<Assets<BakedBody>>();
-    let body = bodies.add(card());
-    let collider = Collider::cuboid(0.06, 0.0005, 0.09);
+    let body = bodies.add(contact_tests::card());
+    let [x, y, z] = contact_tests::SIZE.map(|size| size as f32);
+    let collider = Collider::cuboid(x, y, z);
     let card = (
         transform,
         Immersed::baked(body),

@@ -4,7 +4,7 @@
 use bevy_app::{App, TaskPoolPlugin};
 use bevy_asset::{AssetPlugin, Assets};
 use bevy_ecs::prelude::*;
-use bevy_langevin_rigid::langevin_rigid::{Body, State};
+use bevy_langevin_rigid::langevin_rigid::State;
 use bevy_langevin_rigid::{BakedBody, Immersed, LangevinRigidPlugin, Stepped};
 use bevy_langevin_rigid_rapier::LangevinRigidRapierPlugin;
 use bevy_mesh::MeshPlugin;
@@ -14,40 +14,43 @@ use bevy_transform::TransformPlugin;
 use bevy_transform::components::Transform;
 
 pub const DT: f64 = 1.0 / 64.0;
+/// The step of Rapier that goes with it.
+pub const FIXED: TimestepMode = TimestepMode::Fixed {
+    dt: DT as f32,
+    substeps: 1,
+};
 
 /// An app that takes one fixed step a frame from its second frame on.
 pub fn app() -> App {
+    app_with(RapierPhysicsPlugin::default().in_fixed_schedule(), FIXED)
+}
+
+/// [`app`] with Rapier as it is given.
+pub fn app_with(rapier: RapierPhysicsPlugin<()>, mode: TimestepMode) -> App {
     let mut app = App::new();
-    app.insert_resource(TimestepMode::Fixed {
-        dt: DT as f32,
-        substeps: 1,
-    })
-    .add_plugins((
-        TaskPoolPlugin::default(),
-        TimePlugin,
-        TransformPlugin,
-        AssetPlugin::default(),
-        MeshPlugin,
-        RapierPhysicsPlugin::<()>::default().in_fixed_schedule(),
-        LangevinRigidPlugin,
-        LangevinRigidRapierPlugin,
-    ))
-    .insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
+    app.insert_resource(mode)
+        .add_plugins((
+            TaskPoolPlugin::default(),
+            TimePlugin,
+            TransformPlugin,
+            AssetPlugin::default(),
+            MeshPlugin,
+            rapier,
+            LangevinRigidPlugin,
+            LangevinRigidRapierPlugin,
+        ))
+        .insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
     app.finish();
     app.cleanup();
     app.update();
     app
 }
 
-/// A card of cardboard.
-pub fn card() -> Body {
-    Body::cuboid([0.06, 0.0005, 0.09], 700.0).unwrap()
-}
-
 pub fn drop_card(app: &mut App, transform: Transform) -> Entity {
     let mut bodies = app.world_mut().resource_mut::<Assets<BakedBody>>();
-    let body = bodies.add(card());
-    let collider = Collider::cuboid(0.03, 0.00025, 0.045);
+    let body = bodies.add(contact_tests::card());
+    let [x, y, z] = contact_tests::SIZE.map(|size| 0.5 * size as f32);
+    let collider = Collider::cuboid(x, y, z);
     let card = (
         transform,
         Immersed::baked(body),

@@ -3,13 +3,13 @@
 
 use std::sync::Arc;
 
-use langevin_rigid_rapier::langevin_rigid::linalg::{quat_from_rotation_vector, rotate};
-use langevin_rigid_rapier::langevin_rigid::{Body, Fluid, Input, Settings, State, Stepper};
+use langevin_rigid_rapier::langevin_rigid::{Input, State, Stepper};
 use langevin_rigid_rapier::{ImmersedBodies, Immersion};
 use rapier3d::prelude::*;
 
 pub const DT: f64 = 1.0 / 60.0;
-const CARD: [f64; 3] = [0.06, 0.0005, 0.09];
+/// Of all that touches.
+pub const FRICTION: f64 = 0.5;
 
 #[derive(Default)]
 pub struct World {
@@ -28,61 +28,33 @@ pub struct World {
 
 /// A card of cardboard in air.
 pub fn card() -> Arc<Stepper> {
-    let body = Body::cuboid(CARD, 700.0).unwrap();
-    Arc::new(Stepper::new(&body, &Fluid::AIR, None, &Settings::default()).unwrap())
-}
-
-/// World direction of the thin axis.
-pub fn thin_axis(state: &State) -> [f64; 3] {
-    rotate(state.orientation, [0.0, 1.0, 0.0])
-}
-
-pub fn turned(tilt: [f64; 3]) -> Rotation {
-    let [x, y, z, w] = quat_from_rotation_vector(tilt).map(|x| x as f32);
-    Rotation::from_xyzw(x, y, z, w)
+    Arc::new(contact_tests::stepper())
 }
 
 impl World {
     pub fn ground(&mut self) {
         let ground =
             ColliderBuilder::cuboid(50.0, 1.0, 50.0).translation(Vector::new(0.0, -1.0, 0.0));
-        self.colliders.insert(ground.friction(0.5));
+        self.colliders.insert(ground.friction(FRICTION as f32));
     }
 
-    pub fn drop(
-        &mut self,
-        stepper: &Arc<Stepper>,
-        place: [f64; 3],
-        tilt: [f64; 3],
-    ) -> RigidBodyHandle {
-        let [x, y, z] = CARD.map(|size| 0.5 * size as f32);
-        self.insert(
-            stepper,
-            ColliderBuilder::cuboid(x, y, z).friction(0.5),
-            place,
-            tilt,
-        )
+    pub fn drop(&mut self, stepper: &Arc<Stepper>, pose: &State) -> RigidBodyHandle {
+        let [x, y, z] = contact_tests::SIZE.map(|size| 0.5 * size as f32);
+        self.insert(stepper, ColliderBuilder::cuboid(x, y, z), pose)
     }
 
-    pub fn ball(
-        &mut self,
-        stepper: &Arc<Stepper>,
-        radius: f32,
-        place: [f64; 3],
-    ) -> RigidBodyHandle {
-        self.insert(stepper, ColliderBuilder::ball(radius), place, [0.0; 3])
-    }
-
-    fn insert(
+    pub fn insert(
         &mut self,
         stepper: &Arc<Stepper>,
         collider: ColliderBuilder,
-        place: [f64; 3],
-        tilt: [f64; 3],
+        pose: &State,
     ) -> RigidBodyHandle {
-        let [x, y, z] = place.map(|x| x as f32);
-        let pose = Pose::from_parts(Vector::new(x, y, z), turned(tilt));
+        let [x, y, z] = pose.position.map(|x| x as f32);
+        let [i, j, k, w] = pose.orientation.map(|x| x as f32);
+        let turn = Rotation::from_xyzw(i, j, k, w);
+        let pose = Pose::from_parts(Vector::new(x, y, z), turn);
         let handle = self.bodies.insert(RigidBodyBuilder::dynamic().pose(pose));
+        let collider = collider.friction(FRICTION as f32);
         self.colliders
             .insert_with_parent(collider, handle, &mut self.bodies);
         let immersion = Immersion {

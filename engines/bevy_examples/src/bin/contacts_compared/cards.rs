@@ -1,15 +1,13 @@
 //! The cards, how they are let go, and how they fall where there is no ground.
 
-use bevy_langevin_rigid::langevin_rigid::linalg::{Quat, quat_from_rotation_vector, rotate_back};
+use bevy_langevin_rigid::langevin_rigid::linalg::{Quat, rotate_back};
 use bevy_langevin_rigid::langevin_rigid::{
     Body, BodyError, Fluid, Input, NoiseStream, Settings, State, StepError, Stepper,
 };
+pub(crate) use contact_tests::SIZE;
 
 /// The fixed step of Bevy (s).
 pub(crate) const DT: f64 = 1.0 / 64.0;
-/// Size of a card of cardboard (m), and its density (kg/m^3).
-pub(crate) const SIZE: [f64; 3] = [0.06, 0.0005, 0.09];
-const DENSITY: f64 = 700.0;
 /// Of cards and ground; nothing bounces.
 pub(crate) const FRICTION: f64 = 0.5;
 
@@ -18,7 +16,7 @@ pub(crate) type Way = Vec<State>;
 
 /// The body itself.
 pub(crate) fn body() -> Result<Body, BodyError> {
-    Body::cuboid(SIZE, DENSITY)
+    Body::cuboid(SIZE, contact_tests::DENSITY)
 }
 
 /// What cards share: the defaults of the Bevy plugin.
@@ -39,11 +37,7 @@ pub(crate) fn input(number: usize) -> Input {
 
 /// Heights of their centres (m) and orientations: those of the two hundred cards of the adapters' tests.
 pub(crate) fn releases() -> impl Iterator<Item = (f64, Quat)> {
-    (0..200u32).map(|number| {
-        let height = 1.0 + 0.5 * f64::from(number / 100) + 0.01 * f64::from(number % 7);
-        let tilt = [0.37, 0.11, 0.23].map(|turn| turn * f64::from(number));
-        (height, quat_from_rotation_vector(tilt))
-    })
+    contact_tests::releases().map(|pose| (pose.position[1], pose.orientation))
 }
 
 /// The ways of cards that meet nothing.
