@@ -142,12 +142,10 @@ impl Handed {
     fn meet(&self, body: &mut Stepped, transform: &Transform, now: &Motion, dt: f64) {
         let flight = body.flight(dt);
         let (centre, orientation) = now.centre(body.arm(transform));
-        let mut velocity = now.velocity.as_dvec3().to_array();
-        if let Some(contact) = &self.contact {
-            velocity = contact.corrected(flight.velocity(), velocity);
-        }
+        let velocity = now.velocity.as_dvec3().to_array();
         let spin = now.angular_velocity.as_dvec3().to_array();
-        body.set_state(flight.met(centre, orientation, velocity, spin));
+        let contact = self.contact.as_ref();
+        body.set_state(flight.met(contact, centre, orientation, velocity, spin));
     }
 
     /// The engine has the body so from now on: what differs later, contacts or the game have changed.

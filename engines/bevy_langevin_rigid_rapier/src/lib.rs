@@ -5,12 +5,12 @@
 //! All in `FixedUpdate`: the body takes the step in the fluid alone; Rapier gets the mean velocities of it, and as mass and
 //! inertia those of the body with the fluid that it moves, along the normal of what it touches or, where it touches nothing,
 //! along the vertical. A body that met nothing is then where the fluid took it, in double precision; another has what
-//! contacts left of these velocities (`FreeFlight::met`).
+//! contacts left of these velocities ([`FreeFlight::met`]).
 //!
 //! What a game sets in `FixedUpdate` for the coming step, it sets before [`LangevinRigidSystems::Read`].
 //!
 //! The engine solves a contact with one mass, that along the normal; along a surface, where a body may be lighter, friction
-//! is made up for afterwards ([`ContactMass::corrected`]). What that leaves out: a contact off the centre of a body without
+//! is made up for afterwards ([`FreeFlight::met`]). What that leaves out: a contact off the centre of a body without
 //! symmetry feels no coupling of turning and moving.
 //!
 //! # Sleep
@@ -21,7 +21,7 @@
 //! in the fluid.
 //!
 //! [`AmbientWind`]: bevy_langevin_rigid::AmbientWind
-//! [`ContactMass::corrected`]: bevy_langevin_rigid::langevin_rigid::ContactMass::corrected
+//! [`FreeFlight::met`]: bevy_langevin_rigid::langevin_rigid::FreeFlight::met
 //! [`Loads::STIRRING`]: bevy_langevin_rigid::langevin_rigid::Loads::STIRRING
 //! [`ExternalWrench`]: bevy_langevin_rigid::ExternalWrench
 //! [`LangevinRigidSystems::Read`]: bevy_langevin_rigid::LangevinRigidSystems::Read

@@ -124,9 +124,10 @@ impl Body {
             body.set_position(pose(centre, self.state.orientation, arm), false);
         } else {
             self.state = flight.met(
+                Some(&mass),
                 self.centre(&now.pose),
                 quaternion(now.pose.rotation),
-                mass.corrected(flight.velocity(), array(now.velocity)),
+                array(now.velocity),
                 array(now.spin),
             );
         }
