@@ -36,7 +36,7 @@ impl BakedBody {
     /// use bevy_langevin_rigid::BakedBody;
     /// use bevy_langevin_rigid::langevin_rigid_bake::{body::BodySpec, shapes::Shape};
     /// // A ball of 10 g that is heavier below.
-    /// let ball = Shape::Sphere { radius: 0.05 }.mesh(500)?;
+    /// let ball = Shape::Ellipsoid { semi_axes: [0.05; 3] }.mesh(500)?;
     /// let spec = BodySpec { mass: Some(0.01), centre_of_mass: Some([0.0, -0.02, 0.0]), ..BodySpec::default() };
     /// let (body, _warnings) = BakedBody::bake(&ball, &spec)?;
     /// assert_eq!(body.centre_of_mass, [0.0, -0.02, 0.0]);

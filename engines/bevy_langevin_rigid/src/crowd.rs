@@ -74,7 +74,7 @@ impl<'a, 'w> Crowd<'a, 'w> {
     pub(crate) fn new(fixed: &'a FixedStep<'a>) -> Self {
         Self {
             fixed,
-            bodies: Vec::new(),
+            bodies: Vec::with_capacity(GATHERED),
         }
     }
 

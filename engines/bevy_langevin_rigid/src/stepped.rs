@@ -104,7 +104,7 @@ impl Stepped {
     }
 
     /// The last fixed step, of `dt` (s), as velocities for a physics engine.
-    pub fn flight(&self, dt: f64) -> FreeFlight {
+    pub(crate) fn flight(&self, dt: f64) -> FreeFlight {
         FreeFlight::between(&self.previous, &self.current, dt)
     }
 
