@@ -24,6 +24,8 @@ test('each body falls', async ({ page }) => {
 });
 
 test('each built-in scene opens and plays', async ({ page }) => {
+  // Each of them is baked.
+  test.slow();
   await open(page);
   const scenes = await choices(page, 'scene');
   expect(scenes.length).toBeGreaterThanOrEqual(23);
