@@ -24,6 +24,56 @@ pub struct Motion {
 /// What a physics engine was last given of a body that is [`Hosted`](crate::Hosted): for the engine's side, which takes the
 /// body through each fixed step with [`read`](Self::read), [`fly`](Self::fly) and [`land`](Self::land).
 ///
+/// ```
+/// use bevy_ecs::prelude::*;
+/// use bevy_langevin_rigid::{Handed, Motion, Sleepers, Stepped};
+/// use bevy_math::Vec3;
+/// use bevy_time::{Fixed, Time};
+/// use bevy_transform::components::Transform;
+///
+/// /// How some engine has a body.
+/// #[derive(Component)]
+/// struct InEngine {
+///     motion: Motion,
+///     asleep: bool,
+/// }
+///
+/// fn wake(mut sleepers: Sleepers, mut bodies: Query<&mut InEngine>) {
+///     for entity in sleepers.stirred() {
+///         if let Ok(mut engine) = bodies.get_mut(entity) {
+///             engine.asleep = false;
+///         }
+///     }
+/// }
+/// fn read(mut bodies: Query<(&mut Stepped, &mut Handed, &Transform, &InEngine)>) {
+///     for (mut body, mut handed, transform, engine) in &mut bodies {
+///         handed.read(&mut body, transform, engine.motion);
+///     }
+/// }
+/// fn hand_over(mut bodies: Query<(&Stepped, &mut Handed, &mut InEngine)>, time: Res<Time<Fixed>>) {
+///     for (body, mut handed, mut engine) in &mut bodies {
+///         // The mass is for the contacts that the engine solves.
+///         let (motion, _mass) = handed.fly(body, engine.motion, Vec3::Y, time.delta_secs_f64());
+///         engine.motion = motion;
+///     }
+/// }
+/// fn take_back(
+///     mut bodies: Query<(&mut Stepped, &mut Handed, &Transform, &mut InEngine)>,
+///     time: Res<Time<Fixed>>,
+/// ) {
+///     for (mut body, mut handed, transform, mut engine) in &mut bodies {
+///         let now = engine.motion;
+///         if let Some(landed) = handed.land(&mut body, transform, now, time.delta_secs_f64()) {
+///             engine.motion = landed;
+///         }
+///     }
+/// }
+/// # bevy_ecs::system::assert_is_system(wake);
+/// # bevy_ecs::system::assert_is_system(read);
+/// # bevy_ecs::system::assert_is_system(hand_over);
+/// # bevy_ecs::system::assert_is_system(take_back);
+/// ```
+///
 /// All of them take the entity's `Transform` for its scale.
 #[derive(Component, Debug, Clone, Copy, PartialEq, Default)]
 pub struct Handed {
