@@ -21,7 +21,7 @@ impl Pose {
     }
 }
 
-/// What a frame needs of each body, apart from the states, which are ten times as large.
+/// What a frame needs of each body, apart from the states, which are much larger.
 #[derive(Component, Debug, Clone, Copy, Default)]
 pub(crate) struct Drawn {
     /// The last two states.

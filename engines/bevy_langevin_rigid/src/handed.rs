@@ -74,7 +74,7 @@ pub struct Motion {
 /// # bevy_ecs::system::assert_is_system(take_back);
 /// ```
 ///
-/// All of them take the entity's `Transform` for its scale.
+/// A `Transform` that they take is the entity's, for its scale.
 #[derive(Component, Debug, Clone, Copy, PartialEq, Default)]
 pub struct Handed {
     motion: Motion,
