@@ -64,13 +64,23 @@ impl Drawn {
         transform.rotation != self.rotation
     }
 
+    /// So far on its way.
+    pub(crate) fn pose(&self, part: f32) -> Pose {
+        Pose {
+            position: self.before.position.lerp(self.after.position, part),
+            orientation: self.before.orientation.slerp(self.after.orientation, part),
+        }
+    }
+
     /// Draws the body so far on its way.
     pub(crate) fn draw(&mut self, part: f32, transform: &mut Transform) {
-        let place = self.before.position.lerp(self.after.position, part);
-        let turn = self.before.orientation.slerp(self.after.orientation, part);
+        let Pose {
+            position,
+            orientation,
+        } = self.pose(part);
         let arm = transform.scale * self.centre_of_mass;
-        transform.translation = place - turn * arm;
-        transform.rotation = turn;
+        transform.translation = position - orientation * arm;
+        transform.rotation = orientation;
         self.keep(transform);
     }
 

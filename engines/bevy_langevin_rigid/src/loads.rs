@@ -2,7 +2,7 @@
 
 use bevy_ecs::system::{Res, SystemParam};
 use bevy_time::{Fixed, Time};
-use langevin_rigid::{Input, Loads};
+use langevin_rigid::Loads;
 
 use crate::ambient::ImmersionSettings;
 use crate::components::ExternalWrench;
@@ -57,13 +57,8 @@ impl BodyLoads<'_> {
         };
         let state = body.state();
         let now = self.time.elapsed_secs_f64();
-        let mut input = Input::default();
-        input.wrench.force = wrench.force.as_dvec3().to_array();
-        input.wrench.torque = wrench.torque.as_dvec3().to_array();
-        if !self.around.wind.is_empty() {
-            let stream = self.settings.fluid.velocity;
-            input.flow = self.around.wind.flow(state.position, now, stream);
-        }
+        let stream = self.settings.fluid.velocity;
+        let mut input = self.around.input(state.position, now, stream, wrench);
         let open = mobility.open.loads(state, &input);
         let Medium::Region(immersion, surface) = &body.medium else {
             return Some(open);

@@ -58,7 +58,8 @@ impl MovingItem<'_, '_> {
         if self.pace.is_due() {
             return;
         }
-        self.stepped.stop(self.pace.passed());
+        let passed = self.pace.passed();
+        self.stepped.stop(passed, self.drawn.pose(passed as f32));
         *self.pace = Pace::default();
         self.draw_at_rest();
     }

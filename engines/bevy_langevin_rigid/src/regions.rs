@@ -9,10 +9,11 @@ use bevy_ecs::system::{Local, Query, ResMut};
 use bevy_math::{DVec2, DVec3, Vec3};
 use bevy_transform::components::{GlobalTransform, Transform};
 use bevy_transform::helper::TransformHelper;
-use langevin_rigid::Fluid;
 use langevin_rigid::wind::Wind;
+use langevin_rigid::{Fluid, Input};
 use langevin_rigid_world::water::{WaterError, WaterSurface};
 
+use crate::components::ExternalWrench;
 use crate::said::Said;
 use crate::winds::Blowing;
 
@@ -188,6 +189,24 @@ impl Region {
 }
 
 impl Surroundings {
+    /// What acts on a body with its centre of mass at `position` (m) at `time` (s), in a fluid that streams (m/s): the wind
+    /// there, and what pushes it.
+    pub(crate) fn input(
+        &self,
+        position: [f64; 3],
+        time: f64,
+        stream: [f64; 3],
+        wrench: &ExternalWrench,
+    ) -> Input {
+        let mut input = Input::default();
+        if !self.wind.is_empty() {
+            input.flow = self.wind.flow(position, time, stream);
+        }
+        input.wrench.force = wrench.force.as_dvec3().to_array();
+        input.wrench.torque = wrench.torque.as_dvec3().to_array();
+        input
+    }
+
     /// The region under or around a body with its centre of mass at `position` (m).
     pub(crate) fn region(&self, position: [f64; 3]) -> Option<&Region> {
         let position = DVec3::from(position);

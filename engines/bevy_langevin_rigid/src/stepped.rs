@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use bevy_ecs::component::Component;
-#[cfg(feature = "gizmos")]
-use bevy_math::Vec3;
-use bevy_math::{DQuat, DVec3};
+use bevy_math::{DQuat, DVec3, Vec3};
 use bevy_transform::components::Transform;
 use langevin_rigid::{FreeFlight, Input, State, Stepper};
 
@@ -22,14 +20,23 @@ use crate::steppers::{Mobility, Shape};
 pub struct Stepped {
     pub(crate) mover: Mover,
     /// Of what it is made; none for a body that could not be made.
-    pub(crate) shape: Option<Shape>,
+    pub(crate) shape: Option<Box<Shape>>,
     pub(crate) medium: Medium,
     current: State,
-    previous: State,
+    /// The state before the last step, of a body that an engine hosts.
+    before: Option<Box<State>>,
+    began: Began,
     /// In the frame of the mesh, before it is scaled (m).
     centre_of_mass: DVec3,
     /// What the entity was last given; where that differs, the game has set it.
     pub(crate) written: (LinearVelocity, AngularVelocity),
+}
+
+/// What is known of the state before the last step: a step seldom ends early, and states are large.
+#[derive(Debug, Default)]
+struct Began {
+    time: f64,
+    velocities: (LinearVelocity, AngularVelocity),
 }
 
 /// What moves a body.
@@ -51,10 +58,11 @@ impl Stepped {
     ) -> Result<(Self, Pace, Drawn), String> {
         let mut joined = Self {
             mover,
-            shape,
+            shape: shape.map(Box::new),
             medium: Medium::default(),
             current: State::default(),
-            previous: State::default(),
+            before: None,
+            began: Began::default(),
             centre_of_mass: centre_of_mass.into(),
             written: (velocity, angular_velocity),
         };
@@ -64,7 +72,6 @@ impl Stepped {
             velocity.0.as_dvec3().to_array(),
             angular_velocity.0.as_dvec3().to_array(),
         );
-        joined.previous = joined.current;
         let mut drawn = Drawn::new(joined.centre_of_mass.as_vec3());
         let pose = Pose::of(&joined.current);
         drawn.between(pose, pose);
@@ -105,7 +112,8 @@ impl Stepped {
 
     /// The last fixed step, of `dt` (s), as velocities for a physics engine.
     pub(crate) fn flight(&self, dt: f64) -> FreeFlight {
-        FreeFlight::between(&self.previous, &self.current, dt)
+        let before = self.before.as_deref().unwrap_or(&self.current);
+        FreeFlight::between(before, &self.current, dt)
     }
 
     /// Puts a body that is [`Hosted`](crate::Hosted) where its engine has moved it.
@@ -135,7 +143,7 @@ impl Stepped {
         self.current.position = position.to_array();
         self.current.orientation = orientation.to_array();
         self.current.set_world_velocities(velocity, spin);
-        self.previous = self.current;
+        self.before = None;
         self.medium = Medium::Unknown;
         Ok(())
     }
@@ -158,26 +166,16 @@ impl Stepped {
         self.written = (velocity, angular_velocity);
     }
 
-    /// Ends the step that it took, of which this part has passed.
-    pub(crate) fn stop(&mut self, passed: f64) {
-        let mut now = self.current;
-        let (place, turn) = self.between(passed);
-        now.position = place.to_array();
-        now.orientation = turn.to_array();
-        let mixed = |of: fn(&State) -> [f64; 3]| {
-            let (from, to) = (
-                DVec3::from(of(&self.previous)),
-                DVec3::from(of(&self.current)),
-            );
-            from.lerp(to, passed).to_array()
-        };
-        now.set_world_velocities(
-            mixed(State::world_velocity),
-            mixed(State::world_angular_velocity),
-        );
-        now.time = self.previous.time + passed * (self.current.time - self.previous.time);
-        self.current = now;
-        self.previous = now;
+    /// Ends the step that it took where it is drawn, when this part of it has passed.
+    pub(crate) fn stop(&mut self, passed: f64, drawn: Pose) {
+        let Began { time, velocities } = &self.began;
+        let mixed = |from: Vec3, to: [f64; 3]| from.as_dvec3().lerp(to.into(), passed).to_array();
+        let velocity = mixed(velocities.0.0, self.current.world_velocity());
+        let spin = mixed(velocities.1.0, self.current.world_angular_velocity());
+        self.current.time = time + passed * (self.current.time - time);
+        self.current.position = drawn.position.as_dvec3().to_array();
+        self.current.orientation = drawn.orientation.as_dquat().normalize().to_array();
+        self.current.set_world_velocities(velocity, spin);
     }
 
     /// The state after a step of `dt` (s) through `medium`; an error says why there is none.
@@ -203,22 +201,19 @@ impl Stepped {
         Ok(next)
     }
 
-    /// Takes a step to `next` through `medium`; from where to where.
-    pub(crate) fn take_step(&mut self, next: State, medium: Medium) -> (Pose, Pose) {
-        self.previous = self.current;
+    /// Takes a step to `next` through `medium`; from where to where. What an engine hosts also keeps the state before it.
+    pub(crate) fn take_step(&mut self, next: State, medium: Medium, hosted: bool) -> (Pose, Pose) {
+        if hosted {
+            **self.before.get_or_insert_default() = self.current;
+        }
+        self.began = Began {
+            time: self.current.time,
+            velocities: self.written,
+        };
+        let from = Pose::of(&self.current);
         self.current = next;
         self.medium = medium;
-        (Pose::of(&self.previous), Pose::of(&self.current))
-    }
-
-    /// Position and orientation so far between the last two states.
-    fn between(&self, part: f64) -> (DVec3, DQuat) {
-        let position = |state: &State| DVec3::from(state.position);
-        let orientation = |state: &State| DQuat::from_array(state.orientation);
-        (
-            position(&self.previous).lerp(position(&self.current), part),
-            orientation(&self.previous).slerp(orientation(&self.current), part),
-        )
+        (from, Pose::of(&self.current))
     }
 
     /// Velocities after the step, which the entity is given.

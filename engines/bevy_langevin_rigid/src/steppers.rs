@@ -213,7 +213,7 @@ pub(crate) fn renew(
     steppers.bakes.clear();
     steppers.fluids.clone_from(&around.fluids);
     for mut stepped in &mut stepped {
-        let Some(shape) = &stepped.shape else {
+        let Some(shape) = stepped.shape.as_deref() else {
             continue;
         };
         match steppers.mobility(shape, &bodies, &server, &settings) {

@@ -3,7 +3,7 @@
 use bevy_ecs::batching::BatchingStrategy;
 use bevy_ecs::change_detection::{DetectChanges, Mut, Ref, Tick};
 use bevy_ecs::hierarchy::ChildOf;
-use bevy_ecs::query::{Added, With, Without};
+use bevy_ecs::query::{Added, QueryData, With, Without};
 use bevy_ecs::resource::Resource;
 use bevy_ecs::system::{Local, Query, Res, ResMut, SystemChangeTick};
 use bevy_log::warn;
@@ -103,6 +103,7 @@ type Stepping = (
     &'static mut AngularVelocity,
     Option<&'static Hosted>,
 );
+type SteppingItem<'w, 's> = <Stepping as QueryData>::Item<'w, 's>;
 
 /// Steps all bodies that are due, on any number of threads, and writes their velocities.
 pub(crate) fn step(
@@ -117,55 +118,67 @@ pub(crate) fn step(
     mut bodies: Query<Stepping, (Without<ChildOf>, Without<Quarantined>)>,
 ) {
     let dt = time.delta_secs_f64();
-    let spans = view.spans();
     let fixed = FixedStep {
         start: time.elapsed_secs_f64() - dt,
         dt,
         settings: &settings,
         around: &around,
         faults: &faults,
+        spans: view.spans(),
     };
     bodies
         .par_iter_mut()
         .batching_strategy(BatchingStrategy::new().batches_per_thread(TASKS))
         .for_each_init(
             || Crowd::new(&fixed),
-            |crowd, (mut body, immersed, wrench, mut velocity, mut angular_velocity, hosted)| {
-                if hosted.is_some_and(|hosted| hosted.asleep) {
-                    if !std::mem::replace(&mut body.pace.rests, true) {
-                        (*velocity, *angular_velocity) = body.stepped.velocities();
-                    }
-                    return;
+            |crowd, body| {
+                if let Some(due) = due(&fixed, *count, body) {
+                    crowd.add(due);
                 }
-                let pushed = *wrench != ExternalWrench::default();
-                if !body.pace.is_due() {
-                    if !pushed {
-                        body.pace.pass();
-                        return;
-                    }
-                    body.stop();
-                }
-                let number = immersed.number.unwrap_or(0);
-                let span = match &spans {
-                    // What a physics engine hosts, it moves at every step.
-                    Some(spans) if !pushed && hosted.is_none() => {
-                        spans.of(body.stepped.state().position, number, *count)
-                    }
-                    _ => 1,
-                };
-                crowd.add(Due {
-                    entity: body.entity,
-                    stepped: body.stepped.into_inner(),
-                    pace: body.pace.into_inner(),
-                    drawn: body.drawn.into_inner(),
-                    velocity: Mut::into_inner(velocity),
-                    angular_velocity: Mut::into_inner(angular_velocity),
-                    number,
-                    wrench: *wrench,
-                    span,
-                });
             },
         );
     *count = count.wrapping_add(1);
     ticks.stepped = change.this_run();
+}
+
+/// The body, if it takes a step at the fixed step with this number.
+fn due<'w>(
+    fixed: &FixedStep,
+    number: u32,
+    (mut body, immersed, wrench, mut velocity, mut angular_velocity, hosted): SteppingItem<'w, '_>,
+) -> Option<Due<'w>> {
+    if hosted.is_some_and(|hosted| hosted.asleep) {
+        if !std::mem::replace(&mut body.pace.rests, true) {
+            (*velocity, *angular_velocity) = body.stepped.velocities();
+        }
+        return None;
+    }
+    let pushed = *wrench != ExternalWrench::default();
+    if !body.pace.is_due() {
+        if !pushed {
+            body.pace.pass();
+            return None;
+        }
+        body.stop();
+    }
+    let own = immersed.number.unwrap_or(0);
+    let span = match &fixed.spans {
+        // What a physics engine hosts, it moves at every step.
+        Some(spans) if !pushed && hosted.is_none() => {
+            spans.of(body.stepped.state().position, own, number)
+        }
+        _ => 1,
+    };
+    Some(Due {
+        entity: body.entity,
+        stepped: body.stepped.into_inner(),
+        pace: body.pace.into_inner(),
+        drawn: body.drawn.into_inner(),
+        velocity: Mut::into_inner(velocity),
+        angular_velocity: Mut::into_inner(angular_velocity),
+        number: own,
+        wrench: *wrench,
+        span,
+        hosted: hosted.is_some(),
+    })
 }
