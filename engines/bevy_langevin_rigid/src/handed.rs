@@ -3,7 +3,7 @@
 use bevy_ecs::component::Component;
 use bevy_math::{DQuat, DVec3, Quat, Vec3};
 use bevy_transform::components::Transform;
-use langevin_rigid::ContactMass;
+use langevin_rigid::{ContactMass, FreeFlight};
 
 use crate::stepped::Stepped;
 
@@ -57,13 +57,10 @@ pub struct Motion {
 ///         engine.motion = motion;
 ///     }
 /// }
-/// fn take_back(
-///     mut bodies: Query<(&mut Stepped, &mut Handed, &Transform, &mut InEngine)>,
-///     time: Res<Time<Fixed>>,
-/// ) {
+/// fn take_back(mut bodies: Query<(&mut Stepped, &mut Handed, &Transform, &mut InEngine)>) {
 ///     for (mut body, mut handed, transform, mut engine) in &mut bodies {
 ///         let now = engine.motion;
-///         if let Some(landed) = handed.land(&mut body, transform, now, time.delta_secs_f64()) {
+///         if let Some(landed) = handed.land(&mut body, transform, now) {
 ///             engine.motion = landed;
 ///         }
 ///     }
@@ -78,9 +75,16 @@ pub struct Motion {
 #[derive(Component, Debug, Clone, Copy, PartialEq, Default)]
 pub struct Handed {
     motion: Motion,
+    /// The step that the engine is to take.
+    flown: Option<Flown>,
+}
+
+/// A step as it was given to the engine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Flown {
+    flight: FreeFlight,
+    /// None of a body that falls plainly.
     contact: Option<ContactMass>,
-    /// Whether the engine is to take the step that it was given.
-    flies: bool,
 }
 
 impl Motion {
@@ -154,9 +158,9 @@ impl Handed {
         let orientation = body.state().orientation;
         let normal = normal.as_dvec3().to_array();
         let stepper = body.stepper();
-        self.contact = stepper.map(|stepper| stepper.contact_mass(orientation, normal));
-        self.flies = true;
-        (self.motion, self.contact)
+        let contact = stepper.map(|stepper| stepper.contact_mass(orientation, normal));
+        self.flown = Some(Flown { flight, contact });
+        (self.motion, contact)
     }
 
     /// After the step of the engine, which has the body as `now`: takes what became of it, and says how the engine is to
@@ -166,16 +170,13 @@ impl Handed {
         body: &mut Stepped,
         transform: &Transform,
         now: Motion,
-        dt: f64,
     ) -> Option<Motion> {
-        if !self.flies {
-            return None;
-        }
+        let flown = self.flown?;
         let mut landed = now;
         if now.moves_as(&self.motion) {
             landed = Motion::of(body, transform);
         } else {
-            self.meet(body, transform, &now, dt);
+            flown.meet(body, transform, &now);
             let Motion {
                 velocity,
                 angular_velocity,
@@ -188,20 +189,24 @@ impl Handed {
         Some(landed)
     }
 
+    /// The engine has the body so from now on: what differs later, contacts or the game have changed.
+    pub fn keep(&mut self, motion: Motion) {
+        self.motion = motion;
+        self.flown = None;
+    }
+}
+
+impl Flown {
     /// Contacts have changed the body's step.
-    fn meet(&self, body: &mut Stepped, transform: &Transform, now: &Motion, dt: f64) {
-        let flight = body.flight(dt);
+    fn meet(&self, body: &mut Stepped, transform: &Transform, now: &Motion) {
         let (centre, orientation) = now.centre(body.arm(transform));
         let velocity = now.velocity.as_dvec3().to_array();
         let spin = now.angular_velocity.as_dvec3().to_array();
         let contact = self.contact.as_ref();
-        body.set_state(flight.met(contact, centre, orientation, velocity, spin));
-    }
-
-    /// The engine has the body so from now on: what differs later, contacts or the game have changed.
-    pub fn keep(&mut self, motion: Motion) {
-        self.motion = motion;
-        self.flies = false;
+        body.set_state(
+            self.flight
+                .met(contact, centre, orientation, velocity, spin),
+        );
     }
 }
 

@@ -144,9 +144,7 @@ pub(crate) fn take_back(
         ),
         With<Hosted>,
     >,
-    time: Res<Time<Fixed>>,
 ) {
-    let dt = time.delta_secs_f64();
     for (
         mut stepped,
         mut handed,
@@ -159,7 +157,7 @@ pub(crate) fn take_back(
     ) in &mut bodies
     {
         let now = convert::motion(&position, &rotation, &v, &omega);
-        let Some(landed) = handed.land(&mut stepped, transform, now, dt) else {
+        let Some(landed) = handed.land(&mut stepped, transform, now) else {
             continue;
         };
         if asleep {

@@ -189,7 +189,6 @@ pub(crate) fn hand_over(
 
 /// Takes what Rapier made of the step.
 pub(crate) fn take_back(
-    time: Res<Time<Fixed>>,
     mut sets: Query<&mut RapierRigidBodySet>,
     mut bodies: Query<(
         &mut Stepped,
@@ -199,7 +198,6 @@ pub(crate) fn take_back(
         &RapierContextEntityLink,
     )>,
 ) {
-    let dt = time.delta_secs_f64();
     for (mut stepped, mut handed, transform, handle, link) in &mut bodies {
         let Ok(mut set) = sets.get_mut(link.0) else {
             continue;
@@ -208,7 +206,7 @@ pub(crate) fn take_back(
             continue;
         };
         let now = convert::motion(body);
-        let Some(landed) = handed.land(&mut stepped, transform, now, dt) else {
+        let Some(landed) = handed.land(&mut stepped, transform, now) else {
             continue;
         };
         if convert::pose(&landed) != *body.position() {

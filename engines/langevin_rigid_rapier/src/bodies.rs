@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use indexmap::IndexMap;
 use langevin_rigid::{Input, State, StepError, Stepper};
 use rapier3d::prelude::{
     ColliderSet, NarrowPhase, RigidBody, RigidBodyHandle, RigidBodySet, Vector,
@@ -16,7 +17,7 @@ use crate::convert::array;
 #[derive(Debug, Clone, Default)]
 pub struct ImmersedBodies {
     /// In the order in which they came.
-    bodies: Vec<(RigidBodyHandle, Body)>,
+    bodies: IndexMap<RigidBodyHandle, Body>,
 }
 
 /// What a rigid body is immersed with.
@@ -99,7 +100,7 @@ impl ImmersedBodies {
         if !body.is_dynamic() {
             return Err(InsertError::NotDynamic(handle));
         }
-        if self.place(handle).is_some() {
+        if self.bodies.contains_key(&handle) {
             return Err(InsertError::Twice(handle));
         }
         let distance = (0.0..f32::INFINITY).contains(&contact_distance);
@@ -119,23 +120,18 @@ impl ImmersedBodies {
         // A body that tumbles may turn further in a step than Rapier would let it.
         body.set_allow_fast_rotation(true);
         let immersed = Body::new(stepper, centre_of_mass, body);
-        self.bodies.push((handle, immersed));
+        self.bodies.insert(handle, immersed);
         Ok(())
     }
 
     /// Lets Rapier alone move this body; whether it was immersed.
     pub fn remove(&mut self, handle: RigidBodyHandle) -> bool {
-        let place = self.place(handle);
-        place.map(|place| self.bodies.remove(place)).is_some()
+        self.bodies.shift_remove(&handle).is_some()
     }
 
     /// The state of a body in double precision, at its centre of mass.
     pub fn state(&self, handle: RigidBodyHandle) -> Option<&State> {
-        self.place(handle).map(|place| &self.bodies[place].1.state)
-    }
-
-    fn place(&self, handle: RigidBodyHandle) -> Option<usize> {
-        self.bodies.iter().position(|(other, _)| *other == handle)
+        self.bodies.get(&handle).map(|body| &body.state)
     }
 
     /// The step of `dt` (s) in the fluid alone, before `PhysicsPipeline::step` of the same length; `input` is what a body
@@ -151,7 +147,7 @@ impl ImmersedBodies {
         mut input: impl FnMut(RigidBodyHandle, &State) -> Input,
     ) -> Result<(), Vec<StepTrouble>> {
         let mut troubles = Vec::new();
-        self.bodies.retain(|(handle, _)| bodies.contains(*handle));
+        self.bodies.retain(|handle, _| bodies.contains(*handle));
         for (handle, immersed) in &mut self.bodies {
             let Some(body) = bodies.get_mut(*handle) else {
                 continue;
