@@ -1,4 +1,5 @@
 use super::*;
+#[cfg(feature = "meshopt")]
 use crate::mesh::intersect::meetings;
 use crate::shapes::Shape;
 
