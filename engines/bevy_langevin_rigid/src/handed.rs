@@ -5,7 +5,7 @@ use bevy_math::{DQuat, DVec3, Quat, Vec3};
 use bevy_transform::components::Transform;
 use langevin_rigid::{ContactMass, FreeFlight};
 
-use crate::stepped::Stepped;
+use crate::stepped::{Stepped, single};
 
 /// How a physics engine has a body: pose of the entity's frame, velocity of the centre of mass (m/s) and angular velocity
 /// (rad/s), world frame, in the precision of engines.
@@ -208,8 +208,4 @@ impl Flown {
                 .met(contact, centre, orientation, velocity, spin),
         );
     }
-}
-
-fn single(a: [f64; 3]) -> Vec3 {
-    DVec3::from(a).as_vec3()
 }

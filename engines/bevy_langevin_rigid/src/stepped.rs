@@ -36,7 +36,9 @@ pub struct Stepped {
 #[derive(Debug, Default)]
 struct Began {
     time: f64,
-    velocities: (LinearVelocity, AngularVelocity),
+    /// World frame (m/s, rad/s).
+    velocity: Vec3,
+    spin: Vec3,
 }
 
 /// What moves a body.
@@ -168,10 +170,14 @@ impl Stepped {
 
     /// Ends the step that it took where it is drawn, when this part of it has passed.
     pub(crate) fn stop(&mut self, passed: f64, drawn: Pose) {
-        let Began { time, velocities } = &self.began;
+        let Began {
+            time,
+            velocity,
+            spin,
+        } = self.began;
         let mixed = |from: Vec3, to: [f64; 3]| from.as_dvec3().lerp(to.into(), passed).to_array();
-        let velocity = mixed(velocities.0.0, self.current.world_velocity());
-        let spin = mixed(velocities.1.0, self.current.world_angular_velocity());
+        let velocity = mixed(velocity, self.current.world_velocity());
+        let spin = mixed(spin, self.current.world_angular_velocity());
         self.current.time = time + passed * (self.current.time - time);
         self.current.position = drawn.position.as_dvec3().to_array();
         self.current.orientation = drawn.orientation.as_dquat().normalize().to_array();
@@ -208,7 +214,8 @@ impl Stepped {
         }
         self.began = Began {
             time: self.current.time,
-            velocities: self.written,
+            velocity: single(self.current.world_velocity()),
+            spin: single(self.current.world_angular_velocity()),
         };
         let from = Pose::of(&self.current);
         self.current = next;
@@ -218,7 +225,6 @@ impl Stepped {
 
     /// Velocities after the step, which the entity is given.
     pub(crate) fn velocities(&mut self) -> (LinearVelocity, AngularVelocity) {
-        let single = |a: [f64; 3]| DVec3::from(a).as_vec3();
         self.written = (
             LinearVelocity(single(self.current.world_velocity())),
             AngularVelocity(single(self.current.world_angular_velocity())),
@@ -231,4 +237,9 @@ impl Stepped {
     pub(crate) fn drawn_centre(&self, transform: &Transform) -> Vec3 {
         transform.translation + (transform.rotation.as_dquat() * self.arm(transform)).as_vec3()
     }
+}
+
+/// In the precision of games.
+pub(crate) fn single(a: [f64; 3]) -> Vec3 {
+    DVec3::from(a).as_vec3()
 }

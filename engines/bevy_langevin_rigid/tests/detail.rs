@@ -96,6 +96,28 @@ fn far_bodies_are_drawn_as_smoothly_and_as_late_as_near_ones() {
 }
 
 #[test]
+fn a_far_body_that_is_moved_at_every_step_falls_no_faster() {
+    let (mut app, _) = viewed();
+    let ball = Body::sphere(0.02, 2000.0).unwrap();
+    let immersed = Immersed::baked(asset(&mut app, ball));
+    let place = Transform::from_xyz(900.0, 0.0, 0.0);
+    let entity = app.world_mut().spawn((immersed, place)).id();
+    steps(&mut app, 1);
+    for _ in 0..SECOND / 4 {
+        let mut transform = app.world_mut().get_mut::<Transform>(entity).unwrap();
+        transform.translation.x += 0.1;
+        steps(&mut app, 1);
+    }
+    // Its state is at most three fixed steps ahead; drag takes little.
+    let fall = -state(&app, entity).world_velocity()[1];
+    let least = 9.81 * (SECOND / 4) as f64 * DT;
+    assert!(
+        (0.95 * least..least + 9.81 * 4.0 * DT).contains(&fall),
+        "{fall}"
+    );
+}
+
+#[test]
 fn a_body_takes_short_steps_again_where_the_viewer_comes_near() {
     let (mut app, viewer) = viewed();
     let entity = spawn(&mut app, 900.0, 0);
