@@ -88,7 +88,11 @@ export class App {
   private constructor(view: View, engine: Engine, scenes: SceneText[]) {
     this.#engine = engine;
     this.#scenes = scenes;
-    const pressure = new Pressure((frame) => engine.call('pressures', ['main', frame]), trouble);
+    const pressure = new Pressure(
+      (frame) => engine.call('pressures', ['main', frame]),
+      () => view.changed(),
+      trouble,
+    );
     this.#picture = new Picture(view, this.#playback, pressure, engine.about.causes);
     this.#crowd = new Crowd(engine, this.#picture, this.#playback);
     this.#throw = this.#throwing(view);
@@ -149,8 +153,12 @@ export class App {
         this.#playback.playing = false;
         this.#picture.visible(false, 1);
       },
-      moved: (position) => this.#picture.main?.actors[0]?.mesh.position.copy(position),
-      released: (position, { x, y, z, w }, velocity) =>
+      moved: (position) => {
+        this.#picture.main?.actors[0]?.mesh.position.copy(position);
+        view.changed();
+      },
+      released: (position, { x, y, z, w }, velocity) => {
+        view.changed();
         void this.#change({
           'release.position': position.toArray(),
           'release.velocity': velocity.toArray(),
@@ -160,7 +168,8 @@ export class App {
           'release.tilt_axis': undefined,
           'release.carried': undefined,
           'release.frame': undefined,
-        }),
+        });
+      },
     });
   }
 
@@ -197,11 +206,13 @@ export class App {
       if (this.#playback.advance(seconds) && main !== undefined) {
         say(this.#inWords(main.run));
       }
-      if (!this.#throw.holding) {
-        this.#picture.place();
+      if (!this.#picture.current) {
+        if (!this.#throw.holding) {
+          this.#picture.place();
+        }
+        this.#picture.view.draw();
+        this.#picture.tell();
       }
-      this.#picture.view.draw();
-      this.#picture.tell();
     }
     this.#transport.tell();
   }
@@ -347,6 +358,7 @@ export class App {
       if (asked === this.#asked) {
         trouble(error instanceof Stopped ? 'Stopped. The scene before is still here.' : told(error, anew));
         this.#panel.show(this.#scene, this.#picture.main.run.description, this.#mesh);
+        this.#picture.visible(true);
         this.#chooseScene();
       }
     }

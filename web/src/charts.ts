@@ -35,6 +35,7 @@ export class Charts {
   #panels: Panel[] = [];
   #runs: Charted[] = [];
   #times: number[] = [];
+  #present = 0;
 
   constructor(
     readonly place: HTMLElement,
@@ -57,6 +58,7 @@ export class Charts {
 
   /** Moves the line of the present, and tells the numbers there. */
   mark(time: number): void {
+    this.#present = time;
     const first = this.#runs[0]?.run;
     if (first === undefined) {
       return;
@@ -165,6 +167,7 @@ export class Charts {
     const width = this.place.clientWidth;
     if (width > 0) {
       this.#panels.forEach(({ plot }) => plot.setSize({ width, height: 96 }));
+      this.mark(this.#present);
     }
   }
 }

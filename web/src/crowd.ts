@@ -70,13 +70,9 @@ export class Crowd {
 
   /** A frame of the page: moves them on, once they have come from the last. */
   async frame(): Promise<void> {
-    const took = this.picture.view.draw();
-    this.#drawing += 0.1 * (took - this.#drawing) || took;
-    byId('hud').textContent = [
-      `${MANY.toLocaleString('en')} bodies`,
-      `simulation ${this.#simulation.toFixed(1)} ms a frame of 1/60 s`,
-      `drawing ${this.#drawing.toFixed(1)} ms`,
-    ].join('\n');
+    if (this.picture.view.stale) {
+      this.#draw();
+    }
     const swarm = this.#swarm;
     if (swarm === undefined || this.#waiting || !this.playback.playing) {
       return;
@@ -87,9 +83,20 @@ export class Crowd {
       this.#simulation += 0.1 * (moved.milliseconds - this.#simulation) || moved.milliseconds;
       if (this.#swarm === swarm) {
         swarm.show(moved.poses);
+        this.picture.view.changed();
       }
     } finally {
       this.#waiting = false;
     }
+  }
+
+  #draw(): void {
+    const took = this.picture.view.draw();
+    this.#drawing += 0.1 * (took - this.#drawing) || took;
+    byId('hud').textContent = [
+      `${MANY.toLocaleString('en')} bodies`,
+      `simulation ${this.#simulation.toFixed(1)} ms a frame of 1/60 s`,
+      `drawing ${this.#drawing.toFixed(1)} ms`,
+    ].join('\n');
   }
 }

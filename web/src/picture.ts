@@ -47,6 +47,8 @@ export class Picture {
   readonly #arrows: Arrows;
   readonly #loads: LoadsTable;
   readonly #charts: Charts;
+  /** The moment at which everything was placed last. */
+  #placed: number | undefined;
 
   constructor(
     readonly view: View,
@@ -59,6 +61,10 @@ export class Picture {
     this.#loads = new LoadsTable(byId('loads'), causes);
     this.#arrows = new Arrows(causes);
     view.scene.add(this.#arrows);
+    // What is shown of a run, and of which causes.
+    for (const id of ['switches', 'loads']) {
+      byId(id).addEventListener('change', () => view.changed());
+    }
     byId('follow').addEventListener('change', () => this.camera.frame(this.showing));
   }
 
@@ -110,6 +116,7 @@ export class Picture {
       this.pressure.begin(actors[0]);
     }
     this.#charts.show(this.showing);
+    this.view.changed();
   }
 
   /** Takes all runs away; the places in the engine that are free now. */
@@ -120,6 +127,7 @@ export class Picture {
       return slot;
     });
     this.showing = [];
+    this.view.changed();
     return slots;
   }
 
@@ -128,10 +136,17 @@ export class Picture {
     for (const { actors } of this.showing.slice(from)) {
       actors.forEach(({ group }) => (group.visible = on));
     }
+    this.view.changed();
+  }
+
+  /** Whether all is drawn as it is at the moment shown. */
+  get current(): boolean {
+    return this.#placed === this.playback.shown && !this.view.stale;
   }
 
   /** Everything where it is at the moment shown. */
   place(): void {
+    this.#placed = this.playback.shown;
     const checked = (id: string): boolean => byId<HTMLInputElement>(id).checked;
     for (const { run, actors } of this.showing) {
       const { frame, share } = frameAt(run.times, this.playback.shown);
@@ -167,9 +182,7 @@ export class Picture {
         hidden: this.#loads.hidden,
       });
     }
-    if (!byId('loads').hidden) {
-      this.#loads.show(loads);
-    }
+    this.#loads.show(loads);
   }
 
   /** Numbers at the moment shown. */

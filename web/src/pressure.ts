@@ -18,6 +18,8 @@ export class Pressure {
   constructor(
     /** Pressures (Pa) at the vertices of the body at a frame. */
     readonly ask: (frame: number) => Promise<Float32Array>,
+    /** Is told when the body may be painted otherwise, or another frame be asked for. */
+    readonly onAnswer: () => void,
     readonly onTrouble: (error: unknown) => void,
   ) {
     byId('pressure').addEventListener('change', () => this.begin(this.#actor));
@@ -59,6 +61,7 @@ export class Pressure {
       this.onTrouble(error);
     } finally {
       this.#waiting = false;
+      this.onAnswer();
     }
   }
 

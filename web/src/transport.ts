@@ -5,6 +5,8 @@ import type { Playback } from './playback';
 
 export class Transport {
   readonly #slider = byId<HTMLInputElement>('time');
+  /** What was told last. */
+  #told = '';
 
   constructor(readonly playback: Playback) {
     byId('play').addEventListener('click', () => this.toggle());
@@ -51,7 +53,12 @@ export class Transport {
 
   /** Shows where the run is. */
   tell(): void {
-    const { shown, end, playing } = this.playback;
+    const { shown, start, end, playing } = this.playback;
+    const now = [shown, start, end, playing].join();
+    if (now === this.#told) {
+      return;
+    }
+    this.#told = now;
     byId('clock').textContent = `${shown.toFixed(2)} / ${end.toFixed(2)} s`;
     this.#slider.value = String(shown);
     this.#slider.setAttribute('aria-valuetext', `${shown.toFixed(2)} seconds`);

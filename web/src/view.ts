@@ -62,6 +62,11 @@ export class View {
   #ground = 0;
   /** Size of what is looked at (m). */
   #scale = 0.1;
+  /** Whether the picture is no longer what was drawn last. */
+  #stale = true;
+  /** Where the camera was then, and what it looked at. */
+  readonly #from = new Vector3();
+  readonly #to = new Vector3();
 
   /** @throws where the browser has no WebGL2 */
   constructor(readonly frame: HTMLElement) {
@@ -69,6 +74,7 @@ export class View {
     this.#renderer.shadowMap.enabled = true;
     this.#renderer.shadowMap.type = PCFShadowMap;
     this.canvas = this.#renderer.domElement;
+    this.canvas.addEventListener('webglcontextrestored', () => this.changed());
     this.#labels.domElement.className = 'labels';
     this.frame.append(this.canvas, this.#labels.domElement);
     this.controls = new OrbitControls(this.camera, this.canvas);
@@ -95,7 +101,13 @@ export class View {
       this.#labels.setSize(width, height);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
+      this.changed();
     }
+  }
+
+  /** What is in the picture is not where it was, or looks different: the next frame draws it. */
+  changed(): void {
+    this.#stale = true;
   }
 
   /** Takes the colours of the page's theme. */
@@ -113,6 +125,7 @@ export class View {
     texture.colorSpace = SRGBColorSpace;
     this.scene.background = texture;
     this.#stage?.();
+    this.changed();
   }
 
   #stage: (() => void) | undefined;
@@ -134,6 +147,7 @@ export class View {
     this.camera.updateProjectionMatrix();
     this.controls.minDistance = scale;
     this.controls.maxDistance = 20 * radius;
+    this.changed();
   }
 
   /** Looks at a place from a distance (m), from where it looked before. */
@@ -168,6 +182,17 @@ export class View {
     this.camera.position.copy(this.controls.target).add(from.multiplyScalar(distance));
   }
 
+  /** Whether the picture is no longer what was drawn last: something changed, or the camera moved. */
+  get stale(): boolean {
+    const { position } = this.camera;
+    const { target } = this.controls;
+    // The camera's controls round.
+    const least = 1e-12 * position.distanceToSquared(target);
+    const moved =
+      position.distanceToSquared(this.#from) > least || target.distanceToSquared(this.#to) > least;
+    return this.#stale || moved;
+  }
+
   /** Draws; how long that took (ms), without what the graphics card does after. */
   draw(): number {
     const begun = performance.now();
@@ -178,6 +203,9 @@ export class View {
     this.#light();
     this.#renderer.render(this.scene, this.camera);
     this.#labels.render(this.scene, this.camera);
+    this.#from.copy(this.camera.position);
+    this.#to.copy(this.controls.target);
+    this.#stale = false;
     return performance.now() - begun;
   }
 
@@ -199,6 +227,7 @@ export class View {
 
   /** The picture as PNG. */
   png(): Promise<Blob> {
+    // What was drawn before is no longer in the canvas to be read.
     this.draw();
     return new Promise((resolve, reject) =>
       this.canvas.toBlob(

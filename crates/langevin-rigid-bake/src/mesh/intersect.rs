@@ -14,7 +14,7 @@ const TOUCH: f64 = 1e-7;
 
 /// Pairs of triangles that are compared, and others that a triangle is compared with at least. Only where thousands
 /// crowd in one place, as at the tip of a finely cut cone, are there more.
-const PAIRS: usize = 200_000_000;
+const PAIRS: usize = 40_000_000;
 const LEAST: usize = 256;
 
 /// Two triangles that meet other than along common edges.
