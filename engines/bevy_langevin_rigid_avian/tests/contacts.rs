@@ -4,67 +4,13 @@
 mod common;
 
 use avian3d::prelude::{LinearVelocity, Position, RigidBody, Rotation, Sleeping};
-use bevy_app::App;
-use bevy_ecs::prelude::*;
-use bevy_langevin_rigid::langevin_rigid::wind::{Wind, WindField};
-use bevy_langevin_rigid::langevin_rigid::{NoiseStream, State};
-use bevy_langevin_rigid::{AmbientWind, ExternalWrench, Hosted, Stepped};
+use bevy_langevin_rigid::Hosted;
+use bevy_langevin_rigid::langevin_rigid::NoiseStream;
 use bevy_math::{DQuat, DVec3, Vec3};
 use bevy_transform::components::Transform;
-use contact_tests::{Engine, Seen};
+use contact_tests::bevy::{DT, InBevy, state, steps};
 
-use common::{DT, app, drop_card, ground, steps};
-
-fn state(world: &World, entity: Entity) -> State {
-    *world.get::<Stepped>(entity).unwrap().state()
-}
-
-struct Avian(App);
-
-impl Avian {
-    fn new() -> Self {
-        let mut app = app();
-        ground(&mut app);
-        Self(app)
-    }
-}
-
-impl Engine for Avian {
-    type Card = Entity;
-    const DT: f64 = DT;
-
-    fn release(&mut self, pose: &State) -> Entity {
-        let position = DVec3::from(pose.position).as_vec3();
-        let turn = DQuat::from_array(pose.orientation).as_quat();
-        let pose = Transform::from_translation(position).with_rotation(turn);
-        drop_card(&mut self.0, pose)
-    }
-
-    fn blow(&mut self, wind: [f64; 3]) {
-        let mut blowing = Wind::default();
-        blowing.add(WindField::Uniform(wind)).unwrap();
-        self.0.insert_resource(AmbientWind(blowing));
-    }
-
-    fn twist(&mut self, card: Entity, torque: [f64; 3]) {
-        let torque = DVec3::from(torque).as_vec3();
-        let wrench = self.0.world_mut().get_mut::<ExternalWrench>(card);
-        wrench.unwrap().torque = torque;
-    }
-
-    fn step(&mut self) {
-        steps(&mut self.0, 1);
-    }
-
-    fn seen(&self, card: Entity) -> Seen {
-        let world = self.0.world();
-        Seen {
-            state: state(world, card),
-            place: world.get::<Position>(card).unwrap().0.as_dvec3().to_array(),
-            asleep: world.get::<Sleeping>(card).is_some(),
-        }
-    }
-}
+use common::{Avian, app, drop_card, ground};
 
 #[test]
 fn a_body_that_meets_nothing_moves_as_in_the_fluid_alone() {
@@ -86,17 +32,17 @@ fn a_body_that_meets_nothing_moves_as_in_the_fluid_alone() {
 
 #[test]
 fn two_hundred_cards_land_lie_flat_and_sleep() {
-    contact_tests::two_hundred_cards_land_lie_flat_and_sleep(&mut Avian::new());
+    contact_tests::two_hundred_cards_land_lie_flat_and_sleep(&mut InBevy::<Avian>::new());
 }
 
 #[test]
 fn a_gust_wakes_a_card_and_a_breath_does_not() {
-    contact_tests::a_gust_wakes_a_card_and_a_breath_does_not(&mut Avian::new());
+    contact_tests::a_gust_wakes_a_card_and_a_breath_does_not(&mut InBevy::<Avian>::new());
 }
 
 #[test]
 fn a_torque_wakes_a_card_and_a_slight_one_does_not() {
-    contact_tests::a_torque_wakes_a_card_and_a_slight_one_does_not(&mut Avian::new());
+    contact_tests::a_torque_wakes_a_card_and_a_slight_one_does_not(&mut InBevy::<Avian>::new());
 }
 
 #[test]

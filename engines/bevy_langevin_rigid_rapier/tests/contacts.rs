@@ -3,64 +3,13 @@
 
 mod common;
 
-use bevy_app::App;
-use bevy_ecs::prelude::*;
-use bevy_langevin_rigid::langevin_rigid::wind::{Wind, WindField};
-use bevy_langevin_rigid::langevin_rigid::{NoiseStream, State};
-use bevy_langevin_rigid::{AmbientWind, ExternalWrench};
-use bevy_math::{DQuat, DVec3, Quat, Vec3};
-use bevy_rapier3d::prelude::{AdditionalMassProperties, ExternalForce, Sleeping};
+use bevy_langevin_rigid::langevin_rigid::NoiseStream;
+use bevy_math::{Quat, Vec3};
+use bevy_rapier3d::prelude::{AdditionalMassProperties, ExternalForce};
 use bevy_transform::components::Transform;
-use contact_tests::{Engine, Seen};
+use contact_tests::bevy::{DT, InBevy, state, steps};
 
-use common::{DT, app, drop_card, ground, place, state, steps};
-
-struct Rapier(App);
-
-impl Rapier {
-    fn new() -> Self {
-        let mut app = app();
-        ground(&mut app);
-        Self(app)
-    }
-}
-
-impl Engine for Rapier {
-    type Card = Entity;
-    const DT: f64 = DT;
-
-    fn release(&mut self, pose: &State) -> Entity {
-        let position = DVec3::from(pose.position).as_vec3();
-        let turn = DQuat::from_array(pose.orientation).as_quat();
-        let pose = Transform::from_translation(position).with_rotation(turn);
-        drop_card(&mut self.0, pose)
-    }
-
-    fn blow(&mut self, wind: [f64; 3]) {
-        let mut blowing = Wind::default();
-        blowing.add(WindField::Uniform(wind)).unwrap();
-        self.0.insert_resource(AmbientWind(blowing));
-    }
-
-    fn twist(&mut self, card: Entity, torque: [f64; 3]) {
-        let torque = DVec3::from(torque).as_vec3();
-        let wrench = self.0.world_mut().get_mut::<ExternalWrench>(card);
-        wrench.unwrap().torque = torque;
-    }
-
-    fn step(&mut self) {
-        steps(&mut self.0, 1);
-    }
-
-    fn seen(&self, card: Entity) -> Seen {
-        let world = self.0.world();
-        Seen {
-            state: state(world, card),
-            place: place(world, card).as_dvec3().to_array(),
-            asleep: world.get::<Sleeping>(card).unwrap().sleeping,
-        }
-    }
-}
+use common::{Rapier, app, drop_card, place};
 
 #[test]
 fn a_body_that_meets_nothing_moves_as_in_the_fluid_alone() {
@@ -95,15 +44,15 @@ fn a_body_that_meets_nothing_moves_as_in_the_fluid_alone() {
 
 #[test]
 fn two_hundred_cards_land_lie_flat_and_sleep() {
-    contact_tests::two_hundred_cards_land_lie_flat_and_sleep(&mut Rapier::new());
+    contact_tests::two_hundred_cards_land_lie_flat_and_sleep(&mut InBevy::<Rapier>::new());
 }
 
 #[test]
 fn a_gust_wakes_a_card_and_a_breath_does_not() {
-    contact_tests::a_gust_wakes_a_card_and_a_breath_does_not(&mut Rapier::new());
+    contact_tests::a_gust_wakes_a_card_and_a_breath_does_not(&mut InBevy::<Rapier>::new());
 }
 
 #[test]
 fn a_torque_wakes_a_card_and_a_slight_one_does_not() {
-    contact_tests::a_torque_wakes_a_card_and_a_slight_one_does_not(&mut Rapier::new());
+    contact_tests::a_torque_wakes_a_card_and_a_slight_one_does_not(&mut InBevy::<Rapier>::new());
 }

@@ -11,8 +11,9 @@ use bevy_math::{Quat, Vec3};
 use bevy_rapier3d::prelude::{RigidBody, Sleeping, Velocity};
 use bevy_time::{Fixed, Time, TimeUpdateStrategy};
 use bevy_transform::components::Transform;
+use contact_tests::bevy::{DT, state, steps};
 
-use common::{DT, app, drop_card, ground, place, state, steps};
+use common::{app, drop_card, ground, place};
 
 #[test]
 fn a_game_moves_and_pushes_a_body() {

@@ -7,8 +7,9 @@ mod common;
 mod log;
 
 use bevy_rapier3d::prelude::{RapierPhysicsPlugin, TimestepMode};
+use contact_tests::bevy::{DT, steps};
 
-use common::{DT, FIXED, app, app_with, steps};
+use common::{FIXED, app, app_with};
 use log::{errors, listening};
 
 #[test]

@@ -2,6 +2,9 @@
 //! ground in any engine.
 #![allow(clippy::unwrap_used, reason = "of tests")]
 
+#[cfg(feature = "bevy")]
+pub mod bevy;
+
 use langevin_rigid::linalg::{Vec3, quat_from_rotation_vector, rotate};
 use langevin_rigid::{Body, Fluid, Settings, State, Stepper};
 
