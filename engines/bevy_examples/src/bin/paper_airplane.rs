@@ -25,6 +25,8 @@ const HAND: Vec3 = Vec3::new(0.0, 1.6, 0.0);
 /// Slowest and fastest throw (m/s), and how much of it a pixel a second of the mouse is.
 const THROW: [f32; 2] = [2.0, 9.0];
 const PER_PIXEL: f32 = 0.004;
+/// How far away it may be aimed (m).
+const FARTHEST: f32 = 20.0;
 /// Airplanes that lie about; the oldest goes first.
 const MOST: usize = 12;
 
@@ -210,12 +212,14 @@ struct Mouse<'w, 's> {
 }
 
 impl Mouse<'_, '_> {
-    /// What it points at.
-    fn towards(&self) -> Option<Vec3> {
+    /// Where it points to on the ground; in the sky, a place as far away as one may be (m).
+    fn place(&self) -> Option<Vec3> {
         let cursor = self.windows.single().ok()?.cursor_position()?;
         let (camera, place) = self.cameras.single().ok()?;
         let ray = camera.viewport_to_world(place, cursor).ok()?;
-        Some(*ray.direction)
+        let ground = ray.plane_intersection_point(Vec3::ZERO, InfinitePlane3d::new(Vec3::Y));
+        let near = ground.filter(|ground| ground.distance(ray.origin) < FARTHEST);
+        Some(near.unwrap_or_else(|| ray.get_point(FARTHEST)))
     }
 }
 
@@ -235,10 +239,17 @@ fn swing(
         swing.0 = swing.0.lerp(mouse.moved.delta / dt, share);
     }
     if mouse.buttons.just_released(MouseButton::Left)
-        && let Some(towards) = mouse.towards()
+        && let Some(place) = mouse.place()
     {
         let speed = (PER_PIXEL * swing.0.length()).clamp(THROW[0], THROW[1]);
-        throw(&paper, HAND, towards, speed, &mut thrown, &mut commands);
+        throw(
+            &paper,
+            HAND,
+            place - HAND,
+            speed,
+            &mut thrown,
+            &mut commands,
+        );
     }
 }
 
