@@ -1,4 +1,4 @@
-/** The picture is drawn when something in it changes, and only then: a page that is looked at costs no battery. */
+/** The picture is drawn when something in it changes, and only then: a page that is only looked at rests. */
 
 import type { Page } from '@playwright/test';
 import { expect, frames, open, seek, shown, test } from './page';
@@ -75,7 +75,6 @@ async function drag(page: Page): Promise<void> {
 }
 
 test('a throw that cannot be puts the body back', async ({ page }) => {
-  await watch(page);
   await open(page);
   const before = await page.locator('#picture').screenshot();
   // The engine that would compute it is gone.

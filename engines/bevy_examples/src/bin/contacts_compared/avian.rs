@@ -5,16 +5,13 @@ use std::error::Error;
 use avian3d::prelude::{
     Collider, CollisionLayers, Friction, PhysicsPlugins, Restitution, RigidBody,
 };
-use bevy::app::{App, TaskPoolPlugin};
-use bevy::asset::{AssetPlugin, Assets};
+use bevy::app::App;
+use bevy::asset::Assets;
 use bevy::ecs::prelude::*;
 use bevy::math::Quat;
-use bevy::mesh::MeshPlugin;
-use bevy::time::{TimePlugin, TimeUpdateStrategy};
-use bevy::transform::TransformPlugin;
 use bevy::transform::components::Transform;
 use bevy_langevin_rigid::langevin_rigid::State;
-use bevy_langevin_rigid::{BakedBody, Immersed, LangevinRigidPlugin, Stepped};
+use bevy_langevin_rigid::{BakedBody, Immersed, Stepped};
 use bevy_langevin_rigid_avian::LangevinRigidAvianPlugin;
 
 use crate::cards::{self, FRICTION, SIZE, Way};
@@ -25,7 +22,9 @@ const CARDS: u32 = 2;
 
 /// The ways of cards onto the ground, from states that are those of the [releases](cards::releases) but for rounding.
 pub(crate) fn ways(starts: &[State], steps: usize) -> Result<Vec<Way>, Box<dyn Error>> {
-    let mut app = app();
+    let mut app = contact_tests::bevy::app(|app| {
+        app.add_plugins((PhysicsPlugins::default(), LangevinRigidAvianPlugin));
+    });
     app.world_mut().spawn(ground());
     let entities = drop_cards(&mut app)?;
     // They join in this frame. What they move in it is taken back.
@@ -42,26 +41,6 @@ pub(crate) fn ways(starts: &[State], steps: usize) -> Result<Vec<Way>, Box<dyn E
         }
     }
     Ok(ways)
-}
-
-/// One that takes a fixed step a frame from its second frame on.
-fn app() -> App {
-    let mut app = App::new();
-    app.add_plugins((
-        TaskPoolPlugin::default(),
-        TimePlugin,
-        TransformPlugin,
-        AssetPlugin::default(),
-        MeshPlugin,
-        PhysicsPlugins::default(),
-        LangevinRigidPlugin,
-        LangevinRigidAvianPlugin,
-    ))
-    .insert_resource(TimeUpdateStrategy::FixedTimesteps(1));
-    app.finish();
-    app.cleanup();
-    app.update();
-    app
 }
 
 fn drop_cards(app: &mut App) -> Result<Vec<Entity>, Box<dyn Error>> {
